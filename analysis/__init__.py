@@ -1,0 +1,1 @@
+"""From responses to statistics, tables, figures and the report."""

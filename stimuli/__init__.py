@@ -1,0 +1,1 @@
+"""Robot motion and pictures: gestures, movement primitives, animation principles, robots, rendered clips."""

@@ -1,0 +1,83 @@
+"""What a robot is, apart from how it looks: joints, limits, kinematic tree, home pose and relations.
+
+Units: m, rad, s. Pepper's hands are dimensionless (0 closed, 1 open), so amplitudes of different joints
+are compared only after division by the joint's range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    import mujoco
+
+Vector = tuple[float, float, float]
+JointKind = Literal["revolute", "prismatic", "dimensionless"]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One degree of freedom between two links."""
+
+    name: str
+    parent: str
+    child: str
+    kind: JointKind
+    origin_xyz: Vector  # m, in the parent link's frame
+    origin_rpy: Vector  # rad, fixed axes x-y-z as in URDF
+    axis: Vector  # unit vector in the joint's frame; (0, 0, 0) where dimensionless
+    lower: float
+    upper: float
+    max_velocity: float | None  # per second; None where unknown
+    max_acceleration: float | None = None
+
+    @property
+    def unit(self) -> str:
+        """Unit of positions: rad, m, or 1 for dimensionless joints."""
+        return {"revolute": "rad", "prismatic": "m", "dimensionless": "1"}[self.kind]
+
+    @property
+    def range(self) -> float:
+        """Width of the position range."""
+        return self.upper - self.lower
+
+
+@dataclass(frozen=True)
+class Relation:
+    """A source joint whose motion is carried over to a target joint (Secondary Action, Follow Through)."""
+
+    source: str
+    target: str
+    sign: Literal[1, -1]  # the paper's delta
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A robot's kinematic facts, and how to build its MuJoCo body."""
+
+    name: str
+    title: str  # shown to people; says "reconstruction" where the model is one
+    joints: tuple[Joint, ...]
+    home: Mapping[str, float]  # every joint's resting position
+    build: Callable[[], mujoco.MjSpec]  # the bare robot, without lights, floor or cameras
+    qpos: Callable[[Mapping[str, float]], Mapping[str, float]] = field(default=dict)
+    """From joint positions to MuJoCo joint positions: identity, but for joints that drive others (hands)."""
+    relations: tuple[Relation, ...] | None = None  # None: found from the tree
+    hands: tuple[str, ...] = ()  # links whose reach is measured
+    head: str | None = None  # link that looks
+    sources: tuple[str, ...] = ()  # where the facts come from
+    sha256: str = ""  # of everything the look and the motion depend on
+
+    def joint(self, name: str) -> Joint:
+        """The joint of that name. Raises KeyError."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise KeyError(name)
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of all degrees of freedom, in the robot's order."""
+        return tuple(joint.name for joint in self.joints)

@@ -1,0 +1,45 @@
+"""Joint motion on a uniform time grid: what gestures are read into and what the primitives make."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Joint motion on a uniform time grid.
+
+    Positions are in the joint's own unit: rad for hinges, m for slides, and 0–1 for Pepper's hands.
+    """
+
+    times: FloatArray  # (n,) seconds, from 0
+    positions: FloatArray  # (n, d), columns as in `joints`
+    joints: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        if self.positions.shape != (len(self.times), len(self.joints)):
+            raise ValueError(
+                f"positions have shape {self.positions.shape}; "
+                f"{len(self.times)} times and {len(self.joints)} joints need ({len(self.times)}, {len(self.joints)})"
+            )
+
+    @property
+    def duration_s(self) -> float:
+        """Time from the first to the last sample, in seconds."""
+        return float(self.times[-1] - self.times[0])
+
+    def joint(self, name: str) -> FloatArray:
+        """Positions of one joint, shape (n,). Raises KeyError for a joint that does not move here."""
+        try:
+            return self.positions[:, self.joints.index(name)]
+        except ValueError:
+            raise KeyError(name) from None
+
+    def at(self, times: FloatArray) -> FloatArray:
+        """Positions at the given times, shape (len(times), d): linear between samples, held outside."""
+        return np.stack([np.interp(times, self.times, column) for column in self.positions.T], axis=1)

@@ -1,0 +1,1 @@
+"""Studies: the protocol, orders, sessions, storage, web pages and the command line."""
