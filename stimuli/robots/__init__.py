@@ -1,0 +1,32 @@
+"""Robots, one file of code and one of facts each: this folder is the list.
+
+A packaged robot `name` is `name.yaml` (its facts) beside `name.py` with `load() -> Robot`.
+"""
+
+from __future__ import annotations
+
+import difflib
+from importlib import import_module
+from importlib.resources import files
+from pathlib import Path
+
+from stimuli.errors import InputError
+from stimuli.robots.model import Robot
+
+ROBOTS: tuple[str, ...] = tuple(
+    sorted(
+        entry.name.removesuffix(".yaml")
+        for entry in files(__name__).iterdir()
+        if entry.name.endswith(".yaml")
+    )
+)
+
+
+def load_robot(name_or_path: str, base: Path) -> Robot:  # noqa: ARG001
+    """The packaged robot of that name."""
+    if name_or_path in ROBOTS:
+        robot: Robot = import_module(f"{__name__}.{name_or_path}").load()
+        return robot
+    near = difflib.get_close_matches(name_or_path, ROBOTS, n=1)
+    hint = f" Did you mean {near[0]!r}?" if near else ""
+    raise InputError(f"robot: {name_or_path!r} is not a robot.{hint} Known: {', '.join(ROBOTS)}.")

@@ -1,0 +1,89 @@
+"""A robot's facts as a YAML file: joints, limits, home pose, sources, and measures for its body.
+
+The body's measures are free in form; the robot's own module reads them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from importlib.resources import files
+from typing import Any
+
+import yaml
+from pydantic import BaseModel, ConfigDict, Field
+
+from stimuli.robots.model import Joint, JointKind, Vector
+
+
+class JointFacts(BaseModel):
+    """One joint as written in the file."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    parent: str
+    child: str
+    kind: JointKind = "revolute"
+    xyz: Vector = (0, 0, 0)
+    rpy: Vector = (0, 0, 0)
+    axis: Vector = (0, 0, 0)
+    lower: float
+    upper: float
+    max_velocity: float | None = None
+    max_acceleration: float | None = None
+
+    @property
+    def joint(self) -> Joint:
+        """The joint as the rest of the program knows it."""
+        return Joint(
+            name=self.name,
+            parent=self.parent,
+            child=self.child,
+            kind=self.kind,
+            origin_xyz=self.xyz,
+            origin_rpy=self.rpy,
+            axis=self.axis,
+            lower=self.lower,
+            upper=self.upper,
+            max_velocity=self.max_velocity,
+            max_acceleration=self.max_acceleration,
+        )
+
+
+class Base(BaseModel):
+    """The link that stands in the world, and where."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    link: str
+    xyz: Vector
+
+
+class Facts(BaseModel):
+    """All that is known of a robot, with its sources."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    title: str
+    sources: tuple[str, ...]
+    base: Base
+    joints: tuple[JointFacts, ...]
+    home: Mapping[str, float]
+    hands: tuple[str, ...] = ()
+    head: str | None = None
+    body: Mapping[str, Any] = Field(default_factory=dict)
+
+
+def read_facts(name: str) -> Facts:
+    """Read the packaged facts of a robot."""
+    text = files("stimuli.robots").joinpath(f"{name}.yaml").read_text(encoding="utf-8")
+    return Facts.model_validate(yaml.safe_load(text))
+
+
+def sources_sha256(*names: str) -> str:
+    """Hash of packaged files, given relative to the package `stimuli`: what a robot's look depends on."""
+    digest = hashlib.sha256()
+    for name in names:
+        digest.update(files("stimuli").joinpath(*name.split("/")).read_bytes())
+    return digest.hexdigest()
