@@ -1,0 +1,117 @@
+"""A session's way through the study, as pure functions: from the plan and what is stored to the next page.
+
+A session is a fixed list of steps and the set of steps already answered. The next page is the first step not
+answered; nothing else is remembered, so a reload, a second tab, the back button or another device can only
+ever lead to the same page.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Collection, Sequence
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from enum import Enum
+from typing import Any, Literal
+from uuid import UUID
+
+from study.orders import Plan, Trial
+
+StepKind = Literal["demographics", "instructions", "trial"]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One page to be answered. Its key is stored with the response."""
+
+    key: str
+    kind: StepKind
+    part: str | None = None  # for instructions and trials; None for the instructions of the practice
+    trial: Trial | None = None
+
+
+@dataclass(frozen=True)
+class Session:
+    """A participant who has consented, and all that was fixed for them at that moment."""
+
+    participant: str
+    plan: Plan
+    plan_sha256: str
+    protocol_sha256: str
+    software: str
+    language: str
+    consent_sha256: str  # of the text that was agreed to, as it was shown
+    completion_code: str
+    begun_at: datetime  # UTC
+    completed_at: datetime | None = None
+
+
+class Verdict(Enum):
+    """What becomes of a submission."""
+
+    STORE = "store"
+    KNOWN = "known"  # sent again: acknowledged, not stored twice
+    ELSEWHERE = "elsewhere"  # the step was answered before, in another tab or on another device
+    NOT_YET = "not yet"  # the step is unknown, or others come before it
+
+
+def steps(plan: Plan, *, demographics: bool = True) -> tuple[Step, ...]:
+    """All pages between consent and debriefing, in order: demographics, instructions, practice, parts."""
+    pages: list[Step] = []
+    if demographics:
+        pages.append(Step(key="demographics", kind="demographics"))
+    previous: str | None = None
+    for trial in plan.trials:
+        section = "practice" if trial.practice else trial.part
+        if section != previous:
+            part = None if trial.practice else trial.part
+            pages.append(Step(key=f"instructions:{section}", kind="instructions", part=part))
+        pages.append(Step(key=f"{section}:{trial.number}", kind="trial", part=trial.part, trial=trial))
+        previous = section
+    return tuple(pages)
+
+
+def next_step(pages: Sequence[Step], answered: Collection[str]) -> Step | None:
+    """The first page not yet answered; None when the study is done."""
+    return next((page for page in pages if page.key not in answered), None)
+
+
+def judge(submission_id: UUID, step: str, *, pages: Sequence[Step], answered: dict[str, UUID]) -> Verdict:
+    """Decide about a submission, given the steps already answered and the submissions that answered them."""
+    if step in answered:
+        return Verdict.KNOWN if answered[step] == submission_id else Verdict.ELSEWHERE
+    due = next_step(pages, answered)
+    return Verdict.STORE if due is not None and due.key == step else Verdict.NOT_YET
+
+
+def plan_json(plan: Plan) -> str:
+    """The plan as canonical JSON: what is stored and hashed."""
+    return json.dumps(asdict(plan), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+
+
+def plan_sha256(plan: Plan) -> str:
+    """Hash of the plan's canonical JSON."""
+    return hashlib.sha256(plan_json(plan).encode()).hexdigest()
+
+
+def read_plan(text: str) -> Plan:
+    """The plan from its canonical JSON."""
+    fields: dict[str, Any] = json.loads(text)
+    trials = tuple(Trial(**_tuples(trial)) for trial in fields.pop("trials"))
+    return Plan(**fields, trials=trials)
+
+
+def _tuples(trial: dict[str, Any]) -> dict[str, Any]:
+    nested = ("items", "options")
+    return trial | {name: tuple(tuple(row) for row in trial[name]) for name in nested}
+
+
+def free_slot(taken: Collection[int]) -> int:
+    """The lowest place in the design that no finished or active session holds.
+
+    Orders are drawn in balanced blocks by slot, so filling the lowest gap keeps completed sessions balanced
+    when others drop out.
+    """
+    held = set(taken)
+    return next(slot for slot in range(len(held) + 1) if slot not in held)
