@@ -1,0 +1,78 @@
+"""Who takes part and what will be tested: declared before the first answer."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field, model_validator
+from typing_extensions import Self
+
+from study.written import Seconds, Written, wrong
+
+Probability = Annotated[float, Field(gt=0, lt=1)]
+Test = Literal["one-sample t", "independent t", "paired t", "wilcoxon", "mcnemar", "binomial"]
+Chance = (
+    Annotated[float, Field(allow_inf_nan=False)]
+    | Literal[
+        "midpoint",
+        "grand mean",
+        "other stimuli",
+        "other items",
+        "equal share",
+        "best item",
+        "double difference",
+    ]
+)
+
+
+class Exclusions(Written):
+    """Rules by which a participant is left out of the tests."""
+
+    faster_than: Seconds | None = None  # median time per answer
+    failed_attention: int | None = Field(None, ge=1)  # so many failed attention checks, or more
+    incomplete: bool = True
+    straight_lining: bool = False  # the same answer to every item of a part
+
+
+class Participants(Written):
+    """How many, and who is left out."""
+
+    planned: int = Field(ge=1, le=100_000)
+    abandoned_after: Seconds = 3600.0  # without an answer; the place in the design is then given to the next
+    exclude: Exclusions = Exclusions()
+
+
+class Hypothesis(Written):
+    """One hypothesis and the test that decides on it."""
+
+    text: str | None = None
+    part: str
+    item: str | None = None  # the question's only item, unless told
+    test: Test
+    of: Literal["target"] | None = None  # each stimulus on the item that bears its name
+    against: Chance | None = None
+    compare: tuple[str, str] | None = None  # levels
+    outcome: str | None = None  # the answer that counts as 1, where answers are choices
+    alternative: Literal["greater", "less", "two-sided"]
+    correction: Literal["holm", "bonferroni", "benjamini-hochberg", "none"] = "none"
+    mirrors: str | None = None  # the same test seen from the other side; printed, not counted
+
+    @model_validator(mode="after")
+    def _either(self) -> Self:
+        if (self.compare is None) == (self.of is None):
+            raise wrong("needs either `of: target, against: …` or `compare: [one level, another]`")
+        return self
+
+
+class Analysis(Written):
+    """The plan of analysis: hypotheses by name, and what they share."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Hypothesis] = Field(init=False)
+
+    alpha: Probability = 0.05
+
+    @property
+    def hypotheses(self) -> dict[str, Hypothesis]:
+        """The hypotheses in the order written."""
+        return dict(self.__pydantic_extra__)

@@ -1,0 +1,88 @@
+"""What every kind of question can do: say its items, check and make answers, describe the data it yields."""
+
+from __future__ import annotations
+
+import random
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from stimuli.errors import InputError
+from study.chance import Stream
+from study.text import Text
+from study.written import Written, nearest
+
+
+class AnswerError(InputError):
+    """An answer that no form of this question could have sent."""
+
+
+class Question(Written, ABC):
+    """One question on a page. Answers are texts by item id; an item is what one answer is given to."""
+
+    kind: ClassVar[str]
+    text: Text
+    optional: bool = False
+
+    @property
+    @abstractmethod
+    def items(self) -> Mapping[str, Text]:
+        """What is answered: item ids and the texts beside them, in the order written."""
+
+    @abstractmethod
+    def values(self, item: str) -> Mapping[str, Text] | None:
+        """The answers an item can have, with their labels, in the order written; None where it is open."""
+
+    @abstractmethod
+    def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
+        """Answer as a participant might.
+
+        `target` is what the stimulus is meant to evoke: an item where items are rated, an answer where one
+        is chosen. `effect` 0 answers by chance; 1 sees the target about as well as the paper's participants.
+        """
+
+    def check(self, answers: Mapping[str, str]) -> None:
+        """Raise AnswerError unless there is one possible answer to each item, and to nothing else."""
+        for item in answers:
+            if item not in self.items:
+                raise AnswerError(f"{item!r} is not asked here; {nearest(item, self.items)}")
+        for item in self.items:
+            answer = answers.get(item, "")
+            if answer:
+                self._check_value(item, answer)
+            elif not self.optional:
+                raise AnswerError(f"{item}: an answer is missing")
+
+    def _check_value(self, item: str, answer: str) -> None:
+        values = self.values(item)
+        if values is not None and answer not in values:
+            raise AnswerError(f"{item}: {answer!r} is no possible answer; {nearest(answer, values)}")
+
+    def shown_items(self, stream: Stream) -> tuple[str, ...]:
+        """The items in the order one participant sees them, on every page alike."""
+        return tuple(self.items)
+
+    @property
+    def option_orders(self) -> tuple[tuple[str, ...], ...]:
+        """The orders in which options are shown; participants are spread evenly over them."""
+        return ((),)
+
+    @property
+    def template(self) -> str:
+        """Name of the HTML file beside this kind's Python file."""
+        return f"{self.kind}.html"
+
+    def codebook(self, language: str = "en") -> list[dict[str, Any]]:
+        """One entry per item: what was asked, and what the answers mean."""
+        return [
+            {
+                "item": item,
+                "kind": self.kind,
+                "question": self.text.in_(language),
+                "label": label.in_(language),
+                "values": None if values is None else {v: text.in_(language) for v, text in values.items()},
+                "optional": self.optional,
+            }
+            for item, label in self.items.items()
+            for values in [self.values(item)]
+        ]
