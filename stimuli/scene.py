@@ -1,0 +1,139 @@
+"""The studio every clip is filmed in: a seamless neutral cove, soft light, a contact shadow, camera presets.
+
+Lights cast no shadows: at video size shadow maps leave jagged edges and acne, and they double the time of a
+frame without a GPU. The robot's contact shadow is painted on the floor under its base instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from stimuli.robots.model import Robot
+from stimuli.robots.shapes import lathe
+from stimuli.robots.skeleton import dress
+from stimuli.trajectory import FloatArray
+
+PRESETS: Mapping[str, tuple[float, float]] = {
+    "head": (0.70, 1.10),
+    "upper_body": (0.32, 1.22),
+    "full_body": (-0.07, 1.22),
+    "wide": (-0.45, 1.75),
+}
+"""Lower and upper edge of the picture at the robot's distance, in heights of the robot; closest first."""
+
+FOVY_DEG = 24.0
+AZIMUTH_DEG = 14.0  # of the camera, to the robot's left of straight ahead
+ELEVATION_DEG = 4.0
+BACKDROP = (0.80, 0.81, 0.83)
+
+LIGHTS = (  # direction it shines in, diffuse, specular
+    ((-0.55, -0.38, -0.74), 0.40, 0.30),  # key, from the front, above and the robot's left
+    ((-0.55, 0.75, -0.30), 0.15, 0.06),  # fill
+    ((0.80, -0.30, -0.45), 0.16, 0.20),  # rim, from behind
+)
+
+
+def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
+    """The robot in the studio, with a camera for each preset that suits the picture's shape."""
+    spec = robot.build()
+    low, high = extent(spec.compile(), robot)
+    add_light(spec)
+    add_cove(spec)
+    add_contact_shadow(spec, low, high)
+    for name, (bottom, top) in PRESETS.items():
+        tall = high[2] * (top - bottom)
+        wide = tall if name == "head" else high[2] * 1.2
+        add_camera(spec, name, middle=high[2] * (bottom + top) / 2, tall=max(tall, wide * height / width))
+    spec.visual.global_.offwidth = width
+    spec.visual.global_.offheight = height
+    return spec.compile()
+
+
+def pose(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot, positions: Mapping[str, float]) -> None:
+    """Put the robot into a pose and compute where every part then is."""
+    for name, value in robot.qpos(positions).items():
+        data.joint(name).qpos[0] = value
+    mujoco.mj_kinematics(model, data)
+
+
+def extent(model: mujoco.MjModel, robot: Robot) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest corner of the robot at home, in metres."""
+    data = mujoco.MjData(model)
+    pose(model, data, robot, robot.home)
+    corners = box_corners(model, data, np.arange(model.ngeom)).reshape(-1, 3)
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def box_corners(model: mujoco.MjModel, data: mujoco.MjData, geoms: FloatArray) -> FloatArray:
+    """Corners of the bounding boxes of geoms in the world, shape (len(geoms), 8, 3)."""
+    signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1], indexing="ij"), axis=-1).reshape(8, 3)
+    centre, half = model.geom_aabb[geoms, :3], model.geom_aabb[geoms, 3:]
+    local = centre[:, None] + signs * half[:, None]
+    turn = data.geom_xmat[geoms].reshape(-1, 3, 3)
+    corners: FloatArray = np.einsum("gij,gkj->gki", turn, local) + data.geom_xpos[geoms][:, None]
+    return corners
+
+
+def add_light(spec: mujoco.MjSpec) -> None:
+    """Even light from all sides, and a key, a fill and a rim light."""
+    spec.visual.headlight.ambient = [0.42, 0.42, 0.425]
+    spec.visual.headlight.diffuse = [0.12] * 3
+    spec.visual.headlight.specular = [0.04] * 3
+    for direction, diffuse, specular in LIGHTS:
+        spec.worldbody.add_light(
+            type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+            dir=np.array(direction) / np.linalg.norm(direction),
+            diffuse=[diffuse] * 3,
+            specular=[specular] * 3,
+            ambient=[0] * 3,
+            castshadow=False,
+        )
+
+
+def add_cove(spec: mujoco.MjSpec) -> None:
+    """A floor that bends up into a wall without a seam, 5.5 m from the robot."""
+    bend = np.linspace(0, np.pi / 2, 12)
+    curve = [(2.5 + 3.0 * np.sin(a), 3.0 - 3.0 * np.cos(a)) for a in bend]
+    spec.add_material(name="cove", rgba=[*BACKDROP, 1], specular=0, shininess=0)
+    body = spec.worldbody.add_body(name="cove", pos=[0, 0, -0.002])
+    cove = lathe([(0.05, 0.0), *curve, (5.5, 7.0)], 48)
+    dress(spec, body.name, cove=type(cove)(cove.vertices, cove.faces[:, ::-1]))
+
+
+def add_contact_shadow(spec: mujoco.MjSpec, low: FloatArray, high: FloatArray) -> None:
+    """Soft darkness on the floor under the robot: a texture that ends in the floor's own colour."""
+    size, pixels = 1.3, 256
+    grid = np.linspace(-size, size, pixels)
+    distance = np.hypot(*np.meshgrid(grid, grid)) / 0.24
+    shade = 0.34 * np.exp(-((distance / 1.25) ** 4)) + 0.20 * np.exp(-((distance / 2.1) ** 2))
+    image = np.repeat(np.rint(255 * (1 - shade)).astype(np.uint8).reshape(-1, 1), 3, axis=1)
+    texture = mujoco.mjtTexture.mjTEXTURE_2D
+    spec.add_texture(name="shadow", type=texture, width=pixels, height=pixels, nchannel=3, data=image.ravel().tolist())
+    material = spec.add_material(name="shadow", rgba=[*BACKDROP, 1], specular=0, shininess=0)
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "shadow"
+    spec.worldbody.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[size, size, 1],
+        pos=[(low[0] + high[0]) / 2, 0, 0],
+        material="shadow",
+        contype=0,
+        conaffinity=0,
+    )
+
+
+def add_camera(spec: mujoco.MjSpec, name: str, *, middle: float, tall: float) -> None:
+    """A camera that sees `tall` metres around the height `middle`, at the robot's distance."""
+    turn = Rotation.from_euler("yz", [-ELEVATION_DEG, AZIMUTH_DEG], degrees=True)
+    distance = tall / 2 / np.tan(np.radians(FOVY_DEG) / 2)
+    position = turn.apply([distance, 0, 0]) + [0, 0, middle]
+    axes = turn.as_matrix()[:, [1, 2, 0]]  # right, up and backwards, as MuJoCo's cameras look along -z
+    quat = Rotation.from_matrix(axes).as_quat(scalar_first=True)
+    spec.worldbody.add_camera(name=name, pos=position, quat=quat, fovy=FOVY_DEG)
+    spec.visual.map.znear = 0.1
+    spec.visual.map.zfar = 30
+    spec.stat.extent = 1.0
+    spec.stat.center = [0, 0, 0.6]
