@@ -1,0 +1,71 @@
+"""Is a share other than chance would have it?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import betainc, gammaln, xlog1py, xlogy
+
+from analysis.statistics.clopper_pearson import clopper_pearson
+from analysis.statistics.t_test import Alternative, Interval
+from analysis.statistics.wilson import wilson
+
+
+@dataclass(frozen=True)
+class Binomial:
+    """An exact binomial test of k of n against a fixed share."""
+
+    k: int
+    n: int
+    estimate: float | None
+    null: float
+    p: float | None
+    alternative: Alternative
+    ci95: Interval | None  # Clopper–Pearson
+    wilson_ci95: Interval | None
+    reason: str | None = None
+
+
+def binomial(k: int, n: int, null: float = 0.5, alternative: Alternative = "two-sided") -> Binomial:
+    """Exact binomial test; two-sided adds up every outcome no likelier than the one observed.
+
+    Agrees with R `binom.test(k, n, p, alternative)`. With null ½ it is the sign test.
+    """
+    if n == 0:
+        return Binomial(k, n, None, null, None, alternative, None, None, reason="undefined: no answers")
+    return Binomial(
+        k=k,
+        n=n,
+        estimate=k / n,
+        null=null,
+        p=binomial_probability(k, n, null, alternative),
+        alternative=alternative,
+        ci95=clopper_pearson(k, n),
+        wilson_ci95=wilson(k, n),
+    )
+
+
+def binomial_probability(k: int, n: int, null: float, alternative: Alternative) -> float:
+    """P-value of k successes in n."""
+    if alternative == "greater":
+        return at_least(k, n, null)
+    if alternative == "less":
+        return at_least(n - k, n, 1 - null)
+    chances = outcome_probabilities(n, null)
+    return float(min(1.0, chances[chances <= chances[k] * (1 + 1e-7)].sum()))
+
+
+def at_least(k: int, n: int, share: float) -> float:
+    """P(X ≥ k) for X binomial, through the incomplete beta function, so the tail keeps its digits."""
+    return 1.0 if k <= 0 else float(betainc(k, n - k + 1, share))
+
+
+def outcome_probabilities(n: int, share: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """P(X = 0), …, P(X = n)."""
+    k = np.arange(n + 1)
+    ways = gammaln(n + 1) - gammaln(k + 1) - gammaln(n - k + 1)
+    probabilities: np.ndarray[tuple[int], np.dtype[np.float64]] = np.exp(
+        ways + xlogy(k, share) + xlog1py(n - k, -share)
+    )
+    return probabilities

@@ -1,0 +1,50 @@
+"""What a one-dimensional sample is: its moments without the missing values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def observed(values: ArrayLike) -> FloatArray:
+    """The values that are there: a flat float array without NaN."""
+    flat: FloatArray = np.asarray(values, dtype=float).ravel()
+    present: FloatArray = flat[~np.isnan(flat)]
+    return present
+
+
+def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Values of two aligned samples where neither is missing; position i of both is one participant."""
+    a, b = np.asarray(first, dtype=float).ravel(), np.asarray(second, dtype=float).ravel()
+    if a.shape != b.shape:
+        raise ValueError(f"paired samples need equal lengths, got {a.size} and {b.size}")
+    both = ~(np.isnan(a) | np.isnan(b))
+    return a[both], b[both]
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Number, mean, standard deviation and standard error of a sample; None where undefined."""
+
+    n: int
+    mean: float | None
+    sd: float | None  # n − 1 in the denominator
+    se: float | None  # sd / √n
+
+
+def moments(values: ArrayLike) -> Moments:
+    """Describe a sample, missing values left out."""
+    x = observed(values)
+    if x.size == 0:
+        return Moments(n=0, mean=None, sd=None, se=None)
+    mean = float(x.mean())
+    if x.size == 1:
+        return Moments(n=1, mean=mean, sd=None, se=None)
+    sd = (
+        0.0 if np.ptp(x) == 0 else float(x.std(ddof=1))
+    )  # the mean of equal numbers may round; their SD may not
+    return Moments(n=x.size, mean=mean, sd=sd, se=sd / float(np.sqrt(x.size)))
