@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -43,3 +45,14 @@ class Trajectory:
     def at(self, times: FloatArray) -> FloatArray:
         """Positions at the given times, shape (len(times), d): linear between samples, held outside."""
         return np.stack([np.interp(times, self.times, column) for column in self.positions.T], axis=1)
+
+    def resampled(self, dt_s: float) -> Trajectory:
+        """The same motion from its start to its end in steps as near to dt_s as fit evenly; itself where they do.
+
+        Between samples by monotone cubics (PCHIP), which never leave the range of the samples.
+        """
+        n = max(1, round(self.duration_s / dt_s))
+        if n == len(self.times) - 1:
+            return self
+        times = np.linspace(self.times[0], self.times[-1], n + 1)
+        return Trajectory(times - times[0], PchipInterpolator(self.times, self.positions)(times), self.joints)

@@ -1,0 +1,97 @@
+"""A course: all that decides one rollout of a movement primitive, as the principles change it.
+
+A principle is a function from course to course; `stimuli.dmp` carries a course out. Time is counted as the
+share s = t / tau of the motion's duration, 0 at the start and 1 at its end; the phase is x = 1 - progress(s).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from stimuli.robots.model import Relation, Robot
+from stimuli.trajectory import FloatArray
+
+Curve = Callable[[FloatArray], FloatArray]
+"""A strictly increasing map of [0, 1] onto itself."""
+
+Scheme = Literal["foh", "zoh", "semi"]
+
+
+@dataclass(frozen=True)
+class Course:
+    """What the integrator is given. Arrays over joints have d entries, columns as in `joints`."""
+
+    robot: Robot
+    joints: tuple[str, ...]
+    relations: tuple[Relation, ...]  # for Secondary Action and Follow Through, sources before their targets
+    alpha: float
+    scheme: Scheme
+    amplitudes: FloatArray  # (d,) peak to peak of the demonstration, as a share of the joint's range
+
+    weights: FloatArray  # (n_weights, d)
+    start: FloatArray  # (d,)
+    goal: FloatArray  # (d,)
+    tau_s: float
+
+    progress: Curve | None = None  # share of the phase gone by at a share of time; None: the same
+    clock: Curve | None = None  # share of the whole motion, spring and all, gone by at a share of time
+
+    exaggeration: float = 1.0  # factor on the forcing term …
+    around: Literal["goal", "straight"] = "goal"  # … around the unforced path, or a straight reach to the goal
+
+    window: float = 0.0  # share of time at the start in which …
+    gain: FloatArray | None = None  # (d,) … accelerations are multiplied by this, …
+    mirror: FloatArray | None = None  # (d,) … and so is the way from the start to the attractor
+
+    dragged: FloatArray | None = None  # (d, d) target's acceleration loses this times the source's
+    induced: FloatArray | None = None  # (d, d) target's rate of position gains this times the source's
+    carried: FloatArray | None = None  # (d, d) s; shown position of target gains this times the source's velocity
+
+    former_goal: FloatArray | None = None  # (d,) goal before a goal that glides …
+    goal_lag_s: float = 0.0  # … with this time constant; 0: at once
+
+    @property
+    def rate(self) -> float:
+        """Undamped natural frequency of the spring in shares of time, alpha / 2: both its poles are at -rate."""
+        return self.alpha / 2
+
+    @property
+    def dragging(self) -> FloatArray:
+        """`dragged`, zero where there is none."""
+        d = len(self.joints)
+        return np.zeros((d, d)) if self.dragged is None else self.dragged
+
+    @property
+    def displaced(self) -> FloatArray:
+        """How much of its sources' positions a target's spring is displaced by, (d, d).
+
+        A dragged target obeys y'' = F(u, y, y') - c y_S'': then z = y + c y_S is a plain spring that chases
+        u + c (y_S + 2 y_S' / rate). An induced one has y' = v + k y_S': then z = y - k y_S chases u - k y_S.
+        So a target is carried out as the plain spring z, after its sources, and z turned back into y.
+        """
+        return self.dragging if self.induced is None else self.dragging - self.induced
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether any joint's spring depends on another's."""
+        return self.dragged is not None or self.induced is not None
+
+    def coupling(self, strength: float) -> FloatArray:
+        """Strength times delta for each relation between moving joints; (d, d), targets in rows."""
+        matrix = np.zeros((len(self.joints), len(self.joints)))
+        for relation in self.relations:
+            row, column = self.joints.index(relation.target), self.joints.index(relation.source)
+            matrix[row, column] = relation.sign * strength
+        return matrix
+
+
+def after(outer: Curve, inner: Curve | None) -> Curve:
+    """The curve that applies `inner` first, then `outer`."""
+    if inner is None:
+        return outer
+    first = inner
+    return lambda share: outer(first(share))

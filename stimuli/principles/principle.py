@@ -1,0 +1,52 @@
+"""What every animation principle is."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import ClassVar
+
+from pydantic import BaseModel, ConfigDict
+
+from stimuli.course import Course
+
+
+class Stage(IntEnum):
+    """Where in a movement primitive a principle acts; stages run in this order, then by name."""
+
+    WEIGHTS = 1
+    DURATION = 2
+    PHASE = 3
+    FORCING = 4
+    ACCELERATION = 5
+    POSITION = 6
+    GOAL = 7
+
+
+class Principle(BaseModel):
+    """One animation principle with its parameters: a function from course to course.
+
+    A kind has a short name for protocols (`kind`), a `title`, a `stage`, and a `neutral` intensity at which it
+    changes nothing, bit for bit.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    kind: ClassVar[str]
+    title: ClassVar[str]
+    stage: ClassVar[Stage]
+    neutral: ClassVar[float] = 0.0
+
+    intensity: float
+
+    def apply(self, course: Course) -> Course:
+        """The course as this principle changes it; the very same course where the principle is neutral."""
+        return course if self.is_neutral else self.modulate(course)
+
+    @property
+    def is_neutral(self) -> bool:
+        """Whether this changes nothing."""
+        return self.intensity == self.neutral
+
+    def modulate(self, course: Course) -> Course:
+        """The changed course; called only where the principle is not neutral."""
+        raise NotImplementedError

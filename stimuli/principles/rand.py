@@ -1,0 +1,41 @@
+"""Randomization: no two motions quite alike, by noise on the weights."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar
+from zlib import crc32
+
+import numpy as np
+from pydantic import Field
+
+from stimuli.course import Course
+from stimuli.principles.principle import Principle, Stage
+
+
+class Rand(Principle):
+    """Add coloured noise around the motion: w' = w + (1 + mean |w|) p eps, eps standard normal.
+
+    Each joint draws from a stream of its own, made from the seed and the joint's name: the same seed gives the
+    same motion, and a joint's noise does not depend on which other joints move. Acts on the weights as Arc
+    left them. Weights are in the joint's unit, so the paper's "1 +" weighs more the smaller the motion.
+    """
+
+    kind: ClassVar[str] = "rand"
+    title: ClassVar[str] = "Randomization"
+    stage: ClassVar[Stage] = Stage.WEIGHTS
+
+    intensity: float = Field(0.0, ge=0, le=100)
+    seed: int = Field(0, ge=0)
+
+    def modulate(self, course: Course) -> Course:
+        """Draw the noise."""
+        noise = np.stack(
+            [
+                np.random.default_rng([self.seed, crc32(joint.encode())]).standard_normal(len(course.weights))
+                for joint in course.joints
+            ],
+            axis=1,
+        )  # (n_weights, d)
+        scale = 1 + np.abs(course.weights).mean(axis=0)
+        return replace(course, weights=course.weights + scale * self.intensity * noise)

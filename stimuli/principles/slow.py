@@ -1,0 +1,43 @@
+"""Slow In and Slow Out: start slowly, gather speed, end slowly."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from stimuli.course import Course, after
+from stimuli.principles.principle import Principle, Stage
+from stimuli.trajectory import FloatArray
+
+
+class Slow(Principle):
+    """Let the motion progress along a sigmoid instead of evenly: progress(s) = (1 - p) s + p sigmoid(s).
+
+    The sigmoid is logistic with the given `steepness`, shifted and scaled to run exactly from (0, 0) to (1, 1).
+
+    `form: phase`, as in the paper, bends the phase alone. The spring still leaves at once for where the forcing
+    term holds it, so the start is little slower than before. `form: retime` runs the whole motion by
+    the bent clock, and so slows both ends exactly as drawn.
+    """
+
+    kind: ClassVar[str] = "slow"
+    title: ClassVar[str] = "Slow In and Slow Out"
+    stage: ClassVar[Stage] = Stage.PHASE
+
+    intensity: float = Field(0.0, ge=0, le=1)
+    steepness: float = Field(10.0, gt=0, le=100)
+    form: Literal["phase", "retime"] = "phase"
+
+    def modulate(self, course: Course) -> Course:
+        """Bend the phase or the clock."""
+        if self.form == "phase":
+            return replace(course, progress=after(self.curve, course.progress))
+        return replace(course, clock=after(self.curve, course.clock))
+
+    def curve(self, share: FloatArray) -> FloatArray:
+        """Share of the motion gone by at a share of time."""
+        sigmoid = 0.5 + 0.5 * np.tanh(self.steepness / 2 * (share - 0.5)) / np.tanh(self.steepness / 4)
+        return (1 - self.intensity) * share + self.intensity * sigmoid
