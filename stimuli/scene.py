@@ -6,6 +6,7 @@ frame without a GPU. The robot's contact shadow is painted on the floor under it
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
 import mujoco
@@ -19,8 +20,8 @@ from stimuli.trajectory import FloatArray
 
 PRESETS: Mapping[str, tuple[float, float]] = {
     "head": (0.70, 1.10),
-    "upper_body": (0.32, 1.22),
-    "full_body": (-0.07, 1.22),
+    "upper_body": (0.33, 1.18),
+    "full_body": (-0.06, 1.18),
     "wide": (-0.45, 1.75),
 }
 """Lower and upper edge of the picture at the robot's distance, in heights of the robot; closest first."""
@@ -28,10 +29,10 @@ PRESETS: Mapping[str, tuple[float, float]] = {
 FOVY_DEG = 24.0
 AZIMUTH_DEG = 14.0  # of the camera, to the robot's left of straight ahead
 ELEVATION_DEG = 4.0
-BACKDROP = (0.80, 0.81, 0.83)
+BACKDROP = (0.82, 0.82, 0.82)
 
 LIGHTS = (  # direction it shines in, diffuse, specular
-    ((-0.55, -0.38, -0.74), 0.40, 0.30),  # key, from the front, above and the robot's left
+    ((-0.55, -0.38, -0.74), 0.42, 0.30),  # key, from the front, above and the robot's left
     ((-0.55, 0.75, -0.30), 0.15, 0.06),  # fill
     ((0.80, -0.30, -0.45), 0.16, 0.20),  # rim, from behind
 )
@@ -58,29 +59,33 @@ def pose(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot, positions: Ma
     for name, value in robot.qpos(positions).items():
         data.joint(name).qpos[0] = value
     mujoco.mj_kinematics(model, data)
+    mujoco.mj_camlight(model, data)
 
 
 def extent(model: mujoco.MjModel, robot: Robot) -> tuple[FloatArray, FloatArray]:
     """Lowest and highest corner of the robot at home, in metres."""
     data = mujoco.MjData(model)
     pose(model, data, robot, robot.home)
-    corners = box_corners(model, data, np.arange(model.ngeom)).reshape(-1, 3)
-    return corners.min(axis=0), corners.max(axis=0)
+    points = np.vstack([outline(model, data, geom) for geom in range(model.ngeom)])
+    return points.min(axis=0), points.max(axis=0)
 
 
-def box_corners(model: mujoco.MjModel, data: mujoco.MjData, geoms: FloatArray) -> FloatArray:
-    """Corners of the bounding boxes of geoms in the world, shape (len(geoms), 8, 3)."""
-    signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1], indexing="ij"), axis=-1).reshape(8, 3)
-    centre, half = model.geom_aabb[geoms, :3], model.geom_aabb[geoms, 3:]
-    local = centre[:, None] + signs * half[:, None]
-    turn = data.geom_xmat[geoms].reshape(-1, 3, 3)
-    corners: FloatArray = np.einsum("gij,gkj->gki", turn, local) + data.geom_xpos[geoms][:, None]
-    return corners
+def outline(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> FloatArray:
+    """Points whose hull holds a geom, in the world, shape (n, 3): a mesh's vertices, or the corners of its box."""
+    mesh = model.geom_dataid[geom]
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
+        start = model.mesh_vertadr[mesh]
+        local = model.mesh_vert[start : start + model.mesh_vertnum[mesh]]
+    else:
+        centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
+        local = centre + half * np.array(list(itertools.product([-1, 1], repeat=3)))
+    points: FloatArray = local @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+    return points
 
 
 def add_light(spec: mujoco.MjSpec) -> None:
     """Even light from all sides, and a key, a fill and a rim light."""
-    spec.visual.headlight.ambient = [0.42, 0.42, 0.425]
+    spec.visual.headlight.ambient = [0.40] * 3
     spec.visual.headlight.diffuse = [0.12] * 3
     spec.visual.headlight.specular = [0.04] * 3
     for direction, diffuse, specular in LIGHTS:
@@ -100,7 +105,7 @@ def add_cove(spec: mujoco.MjSpec) -> None:
     curve = [(2.5 + 3.0 * np.sin(a), 3.0 - 3.0 * np.cos(a)) for a in bend]
     spec.add_material(name="cove", rgba=[*BACKDROP, 1], specular=0, shininess=0)
     body = spec.worldbody.add_body(name="cove", pos=[0, 0, -0.002])
-    cove = lathe([(0.05, 0.0), *curve, (5.5, 7.0)], 48)
+    cove = lathe([(0.05, 0.0), *curve, (5.5, 7.0)], 72)
     dress(spec, body.name, cove=type(cove)(cove.vertices, cove.faces[:, ::-1]))
 
 

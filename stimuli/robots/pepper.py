@@ -74,7 +74,7 @@ def build() -> mujoco.MjSpec:
     dress(spec, "Pelvis", **pelvis())
     dress(spec, "Hip", **waist())
     dress(spec, "torso", **torso(facts.body["tablet"]))
-    dress(spec, "Neck", joint=lathe([(0.026, -0.03), (0.031, -0.012), (0.029, 0.03), (0.027, 0.045)], 28))
+    dress(spec, "Neck", joint=lathe([(0.031, -0.012), (0.029, 0.03), (0.027, 0.045)], 22))
     dress(spec, "Head", **head(facts.body["eyes"]))
     for side in "LR":
         dress_arm(spec, side)
@@ -170,11 +170,11 @@ def base() -> dict[str, Mesh]:
     """The skirt over the wheels, its bumper line, and the lasers' window in front."""
     gap = Loft(((-0.322, -0.03, 0.17, 0.18, 0.20, 2.5), (-0.300, -0.03, 0.18, 0.19, 0.21, 2.5)))
     knee = Loft(((-0.02, 0, 0.050, 0.055, 0.082, 2.2), (0.02, 0, 0.050, 0.054, 0.082, 2.2)))
-    around = [(a, -0.212) for a in np.linspace(-np.pi, np.pi, 13)]
+    around = [(a, -0.212) for a in np.linspace(-2.6, 2.6, 8)]
     window = [(a, -0.248) for a in np.linspace(-0.42, 0.42, 5)]
     return {
-        "shell": BASE.mesh(34, 56),
-        "joint": gap.mesh(4, 48) + knee.mesh(4, 32) + BASE.seam([(-0.16, -0.105), (0.16, -0.105)], 0.014),
+        "shell": BASE.mesh(20, 40),
+        "joint": gap.mesh(2, 32) + knee.mesh(2, 24) + BASE.seam([(-0.16, -0.105), (0.16, -0.105)], 0.014),
         "seam": BASE.seam(around, 0.0030),
         "glass": BASE.seam(window, 0.020),
     }
@@ -186,17 +186,17 @@ def pelvis() -> dict[str, Mesh]:
     other = [(-angle, z) for angle, z in arm]
     stem = [(0.0, 0.080), (0.0, 0.045), (0.0, 0.010)]
     return {
-        "shell": PELVIS.mesh(30, 48),
+        "shell": PELVIS.mesh(19, 36),
         "seam": joined(*(PELVIS.seam(path, 0.0026) for path in (arm, other[::-1], stem))),
     }
 
 
 def waist() -> dict[str, Mesh]:
     """Dark bellows between pelvis and torso, round about both hip axes."""
-    heights = np.linspace(-0.03, 0.098, 21)
+    heights = np.linspace(-0.002, 0.090, 13)
     folds = 0.0022 * np.cos(2 * np.pi * (heights - 0.050) / 0.0128)
     profile = [(0.046 + fold, height) for height, fold in zip(heights, folds, strict=True)]
-    return {"joint": lathe(profile, 32).bent(lambda points: points * (1, 1.14, 1))}
+    return {"joint": lathe(profile, 22).bent(lambda points: points * (1, 1.14, 1))}
 
 
 def torso(tablet: Mapping[str, list[float]]) -> dict[str, Mesh]:
@@ -209,57 +209,57 @@ def torso(tablet: Mapping[str, list[float]]) -> dict[str, Mesh]:
             (0.1165, 0.001, 0.046, 0.046, 0.0455, 2.0),
             (0.119, 0.001, 0.040, 0.040, 0.040, 2.0),
         )
-    ).mesh(12, 32)
+    ).mesh(6, 24)
     left = yoke.moved((-0.056, 0, 0.2258), ALONG_Y)
-    light = ring(0.0445, 0.0022, 36, 6).moved((-0.057, 0.1185, 0.2258), ALONG_Y)
-    collar = lathe([(0.046, 0.296), (0.041, 0.305), (0.036, 0.309), (0.026, 0.309)], 32).moved((-0.039, 0, 0))
-    bracket = Loft(((-0.06, 0, 0.05, 0.05, 0.07, 3), (0.06, 0, 0.05, 0.05, 0.085, 3))).mesh(4, 24)
+    light = ring(0.0445, 0.0020, 26, 4).moved((-0.057, 0.1185, 0.2258), ALONG_Y)
+    collar = ring(0.0335, 0.0045, 24, 5).moved((-0.0385, 0, 0.3075))
+    bracket = Loft(((-0.06, 0, 0.05, 0.05, 0.07, 3), (0.06, 0, 0.05, 0.05, 0.085, 3))).mesh(2, 20)
 
     def on_tablet(mesh: Mesh, lift: float = 0.0) -> Mesh:
         return mesh.moved((lift, 0, 0)).moved(rpy=tablet["rpy"]).moved(tablet["xyz"])
 
     return {
         "shell": joined(
-            TORSO.mesh(32, 48), left, left.mirrored(), on_tablet(plate(0.0885, 0.124, 0.0085, 7, 64))
+            TORSO.mesh(22, 36), left, left.mirrored(), on_tablet(plate(0.0885, 0.124, 0.0085, 7, 40))
         ),
         "trim": on_tablet(bracket, -0.045),
         "joint": collar,
         "led": light + light.mirrored(),
-        "glass": on_tablet(plate(0.0800, 0.1155, 0.0015, 8, 64), 0.0082),
-        "screen": on_tablet(plate(0.0670, 0.1040, 0.0004, 20, 40), 0.0097),
+        "glass": on_tablet(plate(0.0800, 0.1155, 0.0015, 8, 32), 0.0082),
+        "screen": on_tablet(plate(0.0670, 0.1040, 0.0004, 20, 16), 0.0097),
     }
 
 
 def head(eyes: Mapping[str, float]) -> dict[str, Mesh]:
     """The face looks along +x; every feature sits on the head's surface, along its normal."""
     point, normal = HEAD.front(eyes["y"], eyes["z"])
-    socket = ring(0.0236, 0.0032, 32, 6).facing(normal, point + 0.0002 * normal)
-    iris = ring(0.0206, 0.0027, 32, 6).facing(normal, point + 0.0014 * normal)
-    pupil = dome(0.0198, 0.0052, 28).facing(normal, point + 0.0010 * normal)
+    socket = ring(0.0236, 0.0032, 26, 4).facing(normal, point + 0.0002 * normal)
+    iris = ring(0.0206, 0.0027, 26, 4).facing(normal, point + 0.0014 * normal)
+    pupil = dome(0.0198, 0.0052, 22).facing(normal, point + 0.0010 * normal)
     glint = dome(0.0038, 0.0010, 10, 3).facing(normal, point + 0.0052 * normal + np.array([0, 0.0062, 0.0070]))
-    ear = lathe([(0.036, -0.012), (0.0365, 0.003), (0.0345, 0.0082), (0.030, 0.0098), (0.012, 0.0105)], 32)
-    cover = dome(0.0215, 0.0035, 24, 4).moved((0, 0, 0.0088))
-    glow = ring(0.0262, 0.0024, 32, 6).moved((0, 0, 0.0098))
+    ear = lathe([(0.036, -0.012), (0.0365, 0.003), (0.0345, 0.0082), (0.030, 0.0098), (0.012, 0.0105)], 24)
+    cover = dome(0.0215, 0.0035, 20, 3).moved((0, 0, 0.0088))
+    glow = ring(0.0262, 0.0024, 22, 4).moved((0, 0, 0.0098))
     left = np.array([-0.008, 0.0965, 0.122])
 
     def spot(y: float, z: float, width: float, height: float) -> Mesh:
         at, out = HEAD.front(y, z)
-        disc = dome(1, 0.0016, 20, 4).bent(lambda p: p * (height, width, 1))
+        disc = dome(1, 0.0016, 14, 3).bent(lambda p: p * (height, width, 1))
         return disc.facing(out, at + 0.0002 * out)
 
     def both(mesh: Mesh) -> Mesh:
         return mesh + mesh.mirrored()
 
     return {
-        "shell": HEAD.mesh(38, 56),
+        "shell": HEAD.mesh(26, 44),
         "joint": both(socket),
         "led": both(iris) + both(glow.moved(left, ALONG_Y)),
         "glass": both(pupil) + spot(0, 0.064, 0.0105, 0.0042) + spot(0, 0.163, 0.0048, 0.0048),
-        "glint": glint + glint.moved((0, -2 * eyes["y"], 0)),
+        "glint": both(glint),
         "trim": joined(
             both(ear.moved(left, ALONG_Y)),
             both(cover.moved(left, ALONG_Y)),
-            *(HEAD.pad((x, 0), (0.0165, 0.030), 0.0011, 28) for x in (-0.038, 0.0, 0.038)),
+            *(HEAD.pad((x, 0), (0.0165, 0.030), 0.0011, 16) for x in (-0.038, 0.0, 0.038)),
         ),
     }
 
@@ -276,36 +276,35 @@ def dress_arm(spec: mujoco.MjSpec, side: str) -> None:
         sections = tuple((s, 0.0, height, height, width, 2.1) for s, height, width in rows)
         return Loft(sections, fillet=0.0025).mesh(rings, segments).moved(rpy=ALONG_X)
 
-    cap = lathe([(0.038, -0.031), (0.0415, -0.024), (0.0425, -0.008), (0.0415, 0.006), (0.030, 0.012)], 30)
-    dress(spec, f"{side}Shoulder", joint=ball(0.0395, 20), shell=sided(cap.moved(rpy=(np.pi / 2, 0, 0))))
+    dress(spec, f"{side}Shoulder", joint=ball(0.0395, 14))
     upper = tube(
         *((-0.0415, 0.008, 0.008), (-0.039, 0.019, 0.019), (-0.030, 0.0325, 0.0325), (-0.014, 0.0415, 0.0415)),
         *((0.010, 0.0437, 0.0437), (0.040, 0.0428, 0.0432), (0.080, 0.0397, 0.0405), (0.120, 0.0368, 0.0378)),
         *((0.152, 0.0350, 0.0358), (0.162, 0.0335, 0.0340), (0.1655, 0.0290, 0.0295)),
-        rings=22,
-        segments=28,
+        rings=12,
+        segments=24,
     ).bent(lambda p: p + np.stack([0 * p[:, 0], 0.015 * np.clip(p[:, 0] / 0.18, 0, 1), 0 * p[:, 0]], axis=-1))
     dress(spec, f"{side}Bicep", shell=sided(upper))
-    dress(spec, f"{side}Elbow", joint=ball(0.0322, 22))
+    dress(spec, f"{side}Elbow", joint=ball(0.0322, 16))
     lower = tube(
         *((0.008, 0.025, 0.025), (0.012, 0.0312, 0.0312), (0.022, 0.0345, 0.0350), (0.050, 0.0345, 0.0355)),
         *((0.080, 0.0335, 0.0348), (0.0855, 0.0320, 0.0332), (0.0875, 0.028, 0.029)),
-        rings=14,
-        segments=28,
+        rings=9,
+        segments=22,
     )
-    band = tube((0.080, 0.0275, 0.0285), (0.100, 0.0275, 0.0285), rings=4, segments=24)
+    band = tube((0.080, 0.0275, 0.0285), (0.100, 0.0275, 0.0285), rings=2, segments=18)
     dress(spec, f"{side}ForeArm", shell=lower, joint=band)
     cuff = tube(
         *((-0.0605, 0.0275, 0.0285), (-0.058, 0.0320, 0.0330), (-0.050, 0.0330, 0.0342), (-0.020, 0.0322, 0.0360)),
         *((0.005, 0.0312, 0.0385), (0.022, 0.0300, 0.0395), (0.0275, 0.0275, 0.0370), (0.0285, 0.022, 0.033)),
-        rings=16,
-        segments=28,
+        rings=10,
+        segments=22,
     )
     palm = tube(
         *((0.015, 0.0165, 0.0300), (0.035, 0.0172, 0.0335), (0.060, 0.0152, 0.0360), (0.076, 0.0122, 0.0360)),
         *((0.084, 0.0085, 0.0330), (0.087, 0.0040, 0.0280)),
-        rings=11,
-        segments=24,
+        rings=7,
+        segments=18,
     )
     dress(spec, f"{side.lower()}_wrist", shell=cuff, trim=palm)
 
@@ -326,7 +325,7 @@ def add_fingers(spec: mujoco.MjSpec, side: str, fingers: Mapping[str, Mapping[st
         link = add_link(spec, parent, name, xyz=tuple(xyz), rpy=tuple(rpy))
         link.add_joint(name=name, axis=[0, 0, mirror[1]], range=[0, fingers["curl"]], limited=True)
         thickness = (0.0086 if finger == "Thumb" else 0.0080) - 0.0006 * np.array([k - 1, k])
-        dress(spec, name, trim=capsule(facts["length"], *thickness, 10))
+        dress(spec, name, trim=capsule(facts["length"], *thickness, 7))
 
 
 def _phalanges(side: str, fingers: Mapping[str, object]) -> list[str]:

@@ -122,7 +122,7 @@ class Loft:
         angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
         c, s = np.cos(angle), np.sin(angle)
         outline = np.stack([np.sign(c) * np.sqrt(np.abs(c)), np.sign(s) * np.sqrt(np.abs(s))], axis=-1) * size
-        radii = np.array([1.0, 0.9, 0.6, 0.3, 0.02])
+        radii = np.array([1.0, 0.9, 0.5, 0.02])
         flat = np.asarray(centre) + radii[:, None, None] * outline  # (radii, segments, 2)
         height = self._top(flat) + lift * (1 - 2 * radii**6)[:, None]
         return _tube(np.concatenate([flat, height[..., None]], axis=-1))
@@ -132,9 +132,9 @@ class Loft:
         grid, values = self._table
         centre, front, back, half, exponent = values[250:].T[:, :, None]
         x, y = xy.reshape(-1, 2).T
-        outside = (np.abs(x - centre) / np.where(x > centre, front, back)) ** exponent + (np.abs(y) / half) ** exponent
-        last = np.argmax(outside > 1, axis=0) + 250
-        return grid[last].reshape(xy.shape[:-1])
+        level = (np.abs(x - centre) / np.where(x > centre, front, back)) ** exponent + (np.abs(y) / half) ** exponent
+        columns = [np.interp(1.0, column, grid[250:]) for column in level.T]  # 1 on the surface, growing upwards
+        return np.reshape(columns, xy.shape[:-1])
 
     def seam(self, path: Sequence[tuple[float, float]], width: float, lift: float = 0.0006) -> Mesh:
         """A narrow band along a path of (angle, z) on the surface."""
@@ -147,7 +147,7 @@ class Loft:
         normal = _unit(np.cross(around, up))
         side = _unit(np.cross(normal, np.gradient(middle, axis=0)))
         band = [middle + s * width / 2 * side + lift * normal for s in (-1.0, 1.0)]
-        return _strip(band[1], band[0])
+        return _strip(band[0], band[1])
 
 
 def lathe(profile: Sequence[tuple[float, float]], segments: int) -> Mesh:
