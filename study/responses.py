@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Annotated, Literal
@@ -32,8 +32,7 @@ class View(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    stimulus: Short
-    role: Literal["clip", "reference"]
+    role: Literal["clip", "reference"]  # which stimulus it was stands in the plan; the page does not know
     plays: int = Field(ge=0, le=10_000)  # plays that reached the end
     played_s: Seconds  # truly played in the first full play: sum of forward steps, jumps not counted
     duration_s: Seconds
@@ -81,20 +80,20 @@ class Response:
 
 
 def playback_fault(
-    views: Sequence[View], durations_s: dict[tuple[str, str], float], elapsed_s: float | None
+    views: Sequence[View], durations_s: Mapping[str, float], elapsed_s: float | None
 ) -> str | None:
     """Say why the clips of a page cannot have been watched, or None if all is well.
 
-    `durations_s` maps (role, stimulus) of each clip that had to be watched to its duration; `elapsed_s` is
-    the server's time since it handed out the page, None where that is not to be judged (simulated sessions).
+    `durations_s` maps the role of each clip that had to be watched to its duration; `elapsed_s` is the time
+    since the server handed out the page, None where that is not to be judged (simulated sessions).
     """
-    seen = {(view.role, view.stimulus): view for view in views}
-    for (role, stimulus), duration_s in durations_s.items():
-        view = seen.get((role, stimulus))
+    seen: dict[str, View] = {view.role: view for view in views}
+    for role, duration_s in durations_s.items():
+        view = seen.get(role)
         if view is None or view.plays < 1:
-            return f"the {role} {stimulus} was not played to its end"
+            return f"the {role} was not played to its end"
         if view.played_s < PLAYED_ENOUGH * duration_s:
-            return f"of the {role} {stimulus} only {view.played_s:.2f} of {duration_s:.2f} s were played"
+            return f"of the {role} only {view.played_s:.2f} of {duration_s:.2f} s were played"
     needed_s = PLAYED_ENOUGH * sum(durations_s.values())
     if elapsed_s is not None and elapsed_s < needed_s:
         return f"answered {elapsed_s:.2f} s after the page was opened; its clips take {needed_s:.2f} s"

@@ -13,10 +13,13 @@ from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from enum import Enum
+from itertools import groupby
 from typing import Any, Literal
 from uuid import UUID
 
 from study.orders import Plan, Trial
+
+PRACTICE = "practice"
 
 StepKind = Literal["demographics", "instructions", "trial"]
 
@@ -61,14 +64,11 @@ def steps(plan: Plan, *, demographics: bool = True) -> tuple[Step, ...]:
     pages: list[Step] = []
     if demographics:
         pages.append(Step(key="demographics", kind="demographics"))
-    previous: str | None = None
-    for trial in plan.trials:
-        section = "practice" if trial.practice else trial.part
-        if section != previous:
-            part = None if trial.practice else trial.part
-            pages.append(Step(key=f"instructions:{section}", kind="instructions", part=part))
-        pages.append(Step(key=f"{section}:{trial.number}", kind="trial", part=trial.part, trial=trial))
-        previous = section
+    for section, trials in groupby(plan.trials, key=lambda trial: PRACTICE if trial.practice else trial.part):
+        part = None if section == PRACTICE else section
+        pages.append(Step(key=f"instructions:{section}", kind="instructions", part=part))
+        for number, trial in enumerate(trials, start=1):
+            pages.append(Step(key=f"{section}:{number}", kind="trial", part=trial.part, trial=trial))
     return tuple(pages)
 
 
@@ -105,13 +105,3 @@ def read_plan(text: str) -> Plan:
 def _tuples(trial: dict[str, Any]) -> dict[str, Any]:
     nested = ("items", "options")
     return trial | {name: tuple(tuple(row) for row in trial[name]) for name in nested}
-
-
-def free_slot(taken: Collection[int]) -> int:
-    """The lowest place in the design that no finished or active session holds.
-
-    Orders are drawn in balanced blocks by slot, so filling the lowest gap keeps completed sessions balanced
-    when others drop out.
-    """
-    held = set(taken)
-    return next(slot for slot in range(len(held) + 1) if slot not in held)

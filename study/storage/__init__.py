@@ -15,6 +15,8 @@ from sqlalchemy.exc import ArgumentError
 from stimuli.errors import InputError
 from study.storage.store import Store
 
+__all__ = ["Store", "databases", "open_store"]
+
 NOT_DATABASES = {"store", "tables"}
 
 

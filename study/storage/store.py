@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
@@ -10,9 +11,10 @@ from uuid import UUID
 
 from sqlalchemy import Connection, Engine, RowMapping, func, insert, or_, select, update
 
+from study.orders import assign_slot
 from study.participants import Kind, Participant
 from study.responses import Response, Submission
-from study.sessions import Session, Step, Verdict, free_slot, judge, next_step, plan_json, read_plan
+from study.sessions import Session, Step, Verdict, judge, next_step, plan_json, read_plan
 from study.storage.tables import events, metadata, pages, participants, responses, sessions, withdrawals
 
 
@@ -89,7 +91,7 @@ class Store:
                 .where(participants.c.kind == participant.kind)
                 .where(or_(sessions.c.completed_at.is_not(None), sessions.c.active_at > now - stale_after))
             )
-            session = draw(free_slot(db.execute(holders).scalars().all()))
+            session = draw(assign_slot(Counter(db.execute(holders).scalars())))
             values = vars(session) | {
                 "plan": plan_json(session.plan),
                 "slot": session.plan.slot,

@@ -1,0 +1,155 @@
+"""Answers as a tidy table, one row per answered item, with a codebook that says what everything means."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from study.participants import Kind
+from study.protocol import Protocol
+from study.questions import Question
+from study.responses import Response
+from study.sessions import Step, steps
+from study.storage import Store
+
+COLUMNS = {
+    "participant": "Random name; says nothing about order or person.",
+    "part": "The study's part, or 'demographics'.",
+    "trial": "Place within the part, from 1; empty for demographics.",
+    "stimulus": "Id of the judged clip; empty for demographics.",
+    "item": "What was answered.",
+    "response": "The answer; empty where none was given.",
+    "rt_ms": "From the end of the first full view of the last clip to the last change of this answer, in ms.",
+    "order": "Place of the trial among all trials of the session, from 1.",
+    "plays": "How often the clip was played to its end.",
+    "played_s": "Seconds truly played in its first full view.",
+    "shown_at": "When the server first handed out the page, UTC.",
+    "answered_at": "When the server stored the answer, UTC.",
+    "seed": "Seed of this participant's orders.",
+    "stimulus_sha256": "Hash of the clip's file; leads to all its parameters in manifest.json.",
+    "protocol_sha256": "Hash of the protocol this participant took part in.",
+    "session": "'participant', or 'test' or 'simulated', which are no data.",
+}
+
+
+def rows(
+    store: Store, protocol: Protocol, *, kind: Kind = "participant", clips: dict[str, str] | None = None
+) -> Iterator[dict[str, str]]:
+    """Answered items in the order answered, participant by participant; practice is left out.
+
+    `clips` maps stimulus ids to the hashes of their files.
+    """
+    for session, responses in store.responses(kind):
+        pages = steps(session.plan, demographics=bool(protocol.demographics))
+        by_key = {page.key: page for page in pages}
+        orders = {page.key: n for n, page in enumerate((p for p in pages if _counts(p)), start=1)}
+        for response in responses:
+            step = by_key[response.submission.step]
+            if step.trial and step.trial.practice:
+                continue
+            for answer in response.submission.answers:
+                yield {
+                    "participant": session.participant,
+                    "part": step.part or step.key,
+                    "trial": str(step.trial.number) if step.trial else "",
+                    "stimulus": step.trial.stimulus if step.trial else "",
+                    "item": answer.item,
+                    "response": answer.value,
+                    "rt_ms": "" if answer.rt_ms is None else f"{answer.rt_ms:.1f}",
+                    "order": str(orders.get(step.key, "")),
+                    **_played(response),
+                    "shown_at": _moment(response.shown_at),
+                    "answered_at": _moment(response.answered_at),
+                    "seed": session.plan.seed,
+                    "stimulus_sha256": (clips or {}).get(step.trial.stimulus, "") if step.trial else "",
+                    "protocol_sha256": session.protocol_sha256,
+                    "session": kind,
+                }
+
+
+def responses_csv(
+    store: Store, protocol: Protocol, *, kind: Kind = "participant", clips: dict[str, str] | None = None
+) -> str:
+    """The table as CSV (RFC 4180)."""
+    file = io.StringIO(newline="")
+    writer = csv.DictWriter(file, fieldnames=list(COLUMNS))
+    writer.writeheader()
+    for row in rows(store, protocol, kind=kind, clips=clips):
+        writer.writerow(row | {"response": guarded(row["response"])})
+    return file.getvalue()
+
+
+def guarded(response: str) -> str:
+    """Free text that a spreadsheet would run as a formula, with an apostrophe before it; numbers stay."""
+    if response[:1] not in {"=", "+", "-", "@", "\t", "\r"}:
+        return response
+    try:
+        float(response)
+    except ValueError:
+        return f"'{response}"
+    return response
+
+
+def codebook(protocol: Protocol, *, kind: Kind = "participant") -> dict[str, Any]:
+    """What the columns, items and values of the table mean."""
+    return {
+        "study": protocol.study,
+        "title": protocol.title.root,
+        "protocol_sha256": protocol.sha256,
+        "session": kind,
+        "is_data": kind == "participant",
+        "columns": COLUMNS,
+        "parts": {
+            part.id: {
+                "title": str(part.title),
+                "stimuli": list(part.stimuli),
+                "references": dict(part.references),
+                "items": _items(part.questions),
+            }
+            for part in protocol.parts.values()
+        },
+        "demographics": _items(protocol.demographics),
+        "left out": "Practice trials.",
+    }
+
+
+def export_responses(
+    store: Store,
+    protocol: Protocol,
+    out: Path,
+    *,
+    kind: Kind = "participant",
+    clips: dict[str, str] | None = None,
+) -> Path:
+    """Write responses.csv and its codebook into a folder; gives the path of the table."""
+    out.mkdir(parents=True, exist_ok=True)
+    table = out / "responses.csv"
+    with table.open("w", encoding="utf-8", newline="") as file:
+        file.write(responses_csv(store, protocol, kind=kind, clips=clips))
+    book = json.dumps(codebook(protocol, kind=kind), indent=2, ensure_ascii=False)
+    (out / "responses.codebook.json").write_text(book + "\n", encoding="utf-8")
+    return table
+
+
+def _counts(page: Step) -> bool:
+    return page.trial is not None and not page.trial.practice
+
+
+def _played(response: Response) -> dict[str, str]:
+    view = next((view for view in response.submission.views if view.role == "clip"), None)
+    if view is None:
+        return {"plays": "", "played_s": ""}
+    return {"plays": str(view.plays), "played_s": f"{view.played_s:.3f}"}
+
+
+def _moment(moment: datetime) -> str:
+    return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+def _items(questions: tuple[Question, ...]) -> list[dict[str, Any]]:
+    return [entry for question in questions for entry in question.codebook()]

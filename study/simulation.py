@@ -1,0 +1,158 @@
+"""Rehearsal: simulated participants take a whole study through the real application over HTTP.
+
+They see what a browser sees and send what its scripts send, on a real server with a real database; but all
+they leave behind is marked as simulated, so that it can never be mistaken for data.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import random
+import re
+import tempfile
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from uuid import UUID
+
+import httpx
+
+from study.export import export_responses
+from study.protocol import Protocol, Stimulus
+from study.questions import Question
+from study.storage import open_store
+from study.web.app import create_app
+from study.web.credentials import new_credentials, new_password
+from study.web.participant import questions_of, steps_of
+from study.web.server import SOFTWARE, running
+from study.web.site import Clip, Site, hashes
+
+AT_ONCE = 4
+PAGE = re.compile(r'<script type="application/json" id="page">(.*?)</script>', re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How somebody answers."""
+
+    effect: float  # 0: by chance; 1: sees what is meant about as well as the paper's participants
+    same: bool = False  # always the last answer offered, whatever is asked
+    drops_out: float = 0.0  # chance of leaving on any one page
+    rt_s: float = 4.0  # median time per answer
+
+
+MANNERS: Mapping[str, Manner] = {
+    "attentive": Manner(effect=1.0),
+    "unsure": Manner(effect=0.4, rt_s=7.0),
+    "random clicker": Manner(effect=0.0, rt_s=1.0),
+    "yea-sayer": Manner(effect=0.0, same=True, rt_s=2.0),
+    "dropout": Manner(effect=1.0, drops_out=0.1),
+}
+USUAL = {"attentive": 0.8, "unsure": 0.12, "random clicker": 0.05, "yea-sayer": 0.03}  # shares
+
+
+def rehearse(
+    protocol: Protocol,
+    n: int,
+    out: Path,
+    *,
+    clips: Mapping[str, Clip] | None = None,
+    shares: Mapping[str, float] = USUAL,
+) -> Path:
+    """Let n simulated participants take the study; write responses.csv and codebook, give the table's path.
+
+    Clips need not be rendered: without them the videos count as of no length. `shares` says how often each of
+    the MANNERS occurs.
+    """
+    shown = clips or {stimulus: _unrendered(stimulus) for stimulus in protocol.stimuli}
+    with tempfile.TemporaryDirectory() as scratch:
+        store = open_store(f"sqlite:///{scratch}/rehearsal.db")
+        site = Site(protocol, store, shown, new_credentials(new_password()), SOFTWARE, kind="simulated")
+        with running(create_app(site)) as address, ThreadPoolExecutor(AT_ONCE) as crowd:
+            visits = [crowd.submit(take_part, site, address, number, shares) for number in range(n)]
+            for visit in visits:
+                visit.result()
+        table = export_responses(store, protocol, out, kind="simulated", clips=hashes(clips or {}))
+        store.close()
+    return table
+
+
+def take_part(site: Site, address: str, number: int, shares: Mapping[str, float]) -> None:
+    """Take the study as one simulated participant, from the door to the end or to dropping out."""
+    rng = random.Random(f"{site.protocol.seed}/{number}")
+    manner = MANNERS[rng.choices(list(shares), weights=list(shares.values()))[0]]
+    with httpx.Client(base_url=address, follow_redirects=True, timeout=60) as browser:
+        browser.post("/start").raise_for_status()
+        seen = browser.post("/consent", data={"agreed": "yes", "language": site.protocol.languages[0]})
+        while found := PAGE.search(seen.raise_for_status().text):
+            if rng.random() < manner.drops_out:
+                return
+            page = json.loads(found[1])
+            answered = _answer(site, page, manner, rng)
+            browser.post(page["answer_url"], json=answered).raise_for_status()
+            seen = browser.get(page["next_url"])
+
+
+def _answer(site: Site, page: dict[str, Any], manner: Manner, rng: random.Random) -> dict[str, Any]:
+    """What the page's scripts would send: answers to its questions, and records of its clips."""
+    session = site.store.session(page["participant"])
+    assert session is not None, "a page of the session was shown"
+    step = next(step for step in steps_of(site, session) if step.key == page["step"])
+    stimulus = site.protocol.stimuli[step.trial.stimulus] if step.trial else None
+    answers: dict[str, str] = {}
+    for question in questions_of(site, step):
+        answers |= _choose(site.protocol, stimulus, question, manner, rng)
+    clips = site.clips_on(step.trial) if step.trial else {}
+    return {
+        "id": str(UUID(int=rng.getrandbits(128), version=4)),
+        "step": page["step"],
+        "answers": [
+            {"item": item, "value": value, "rt_ms": 1000 * manner.rt_s * rng.lognormvariate(0, 0.4)}
+            for item, value in answers.items()
+        ],
+        "views": [_view(role, clip) for role, clip in clips.items()],
+        "on_page_ms": 1000 * manner.rt_s,
+    }
+
+
+def _choose(
+    protocol: Protocol, stimulus: Stimulus | None, question: Question, manner: Manner, rng: random.Random
+) -> dict[str, str]:
+    if manner.same and question.values:
+        return dict.fromkeys(question.items, list(question.values)[-1])
+    target = None if stimulus is None else target_of(protocol, stimulus, question)
+    return question.simulate(rng, target, manner.effect)
+
+
+def target_of(protocol: Protocol, stimulus: Stimulus, question: Question) -> str | None:
+    """What a stimulus is meant to evoke: the item of its name, or the answer expected of its level."""
+    if stimulus.name in question.items:
+        return stimulus.name
+    for hypothesis in protocol.analysis.hypotheses.values():
+        if hypothesis.part != stimulus.part or hypothesis.compare is None or hypothesis.outcome is None:
+            continue
+        answers = tuple(question.values or ())
+        if hypothesis.outcome in answers and stimulus.level in hypothesis.compare:
+            others = [answer for answer in answers if answer != hypothesis.outcome]
+            return hypothesis.outcome if stimulus.level == hypothesis.compare[0] else others[0]
+    return None
+
+
+def _view(role: str, clip: Clip) -> dict[str, Any]:
+    return {
+        "role": role,
+        "plays": 1,
+        "played_s": clip.duration_s,
+        "duration_s": clip.duration_s,
+        "frames": 0,
+        "dropped": 0,
+        "happenings": [{"at_ms": 0, "name": "simulated", "media_s": 0}],
+    }
+
+
+def _unrendered(stimulus: str) -> Clip:
+    """What stands for a clip that has not been rendered."""
+    return Clip(Path("/nowhere"), hashlib.sha256(stimulus.encode()).hexdigest(), size=0, duration_s=0.0)

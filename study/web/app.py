@@ -1,0 +1,65 @@
+"""The application: routes, guards, and what is said when something is not found."""
+
+from __future__ import annotations
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import FileResponse, JSONResponse, Response
+from starlette.exceptions import HTTPException
+
+from study.web import experimenter, participant
+from study.web.language import load_language
+from study.web.pages import STATIC, render, static_version
+from study.web.security import Guard
+from study.web.site import Site
+
+FOR_EVER = {"Cache-Control": "public, max-age=31536000, immutable"}
+
+
+def create_app(site: Site) -> FastAPI:
+    """The application that serves a study."""
+    app = FastAPI(title=site.protocol.study, docs_url=None, redoc_url=None, openapi_url=None)
+    app.state.site = site
+    app.include_router(participant.router)
+    app.include_router(experimenter.router)
+    app.add_middleware(Guard)
+    clips = {clip.name: clip for clip in site.clips.values()}
+    static = {file.name: file for file in STATIC.iterdir()}
+
+    @app.get("/clips/{name}")
+    def clip(name: str) -> Response:
+        """A video, whole or in ranges."""
+        if name not in clips:
+            raise HTTPException(404)
+        return FileResponse(clips[name].path, media_type="video/mp4", headers=FOR_EVER)
+
+    @app.get("/static/{version}/{name}")
+    def static_file(version: str, name: str) -> Response:
+        """A style sheet or a script."""
+        if name not in static:
+            raise HTTPException(404)
+        return FileResponse(static[name], headers=FOR_EVER if version == static_version() else None)
+
+    @app.exception_handler(HTTPException)
+    async def say_what_went_wrong(request: Request, fault: HTTPException) -> Response:
+        """A page for people, JSON for the page's scripts."""
+        if request.method == "POST" and request.headers.get("content-type") == "application/json":
+            return JSONResponse({"reason": str(fault.detail)}, fault.status_code)
+        language = participant.language_of(request)
+        say = load_language(language).text
+        return render(
+            request,
+            "message.html",
+            language=language,
+            status=fault.status_code,
+            heading=say("This page is not here") if fault.status_code == 404 else say("This did not work"),
+            message=say("The address may be mistyped. Please use the link you were given."),
+        )
+
+    @app.exception_handler(RequestValidationError)
+    async def say_what_is_malformed(_: Request, fault: RequestValidationError) -> Response:
+        """The first fault is enough: only programs see it."""
+        first = fault.errors()[0]
+        return JSONResponse({"reason": f"{'.'.join(map(str, first['loc']))}: {first['msg']}"}, 422)
+
+    return app

@@ -1,0 +1,94 @@
+"""HTML: templates filled in, in one language, with the protocol's texts as sanitised Markdown."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import nh3
+from fastapi import Request
+from fastapi.responses import HTMLResponse
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markdown_it import MarkdownIt
+from markupsafe import Markup
+
+import study.questions
+from study.questions import Question
+from study.web.language import load_language
+from study.web.site import site_of
+
+HERE = Path(__file__).parent
+STATIC = HERE / "static"
+QUESTIONS = Path(study.questions.__file__).parent
+
+_environment = Environment(
+    loader=FileSystemLoader([HERE / "templates", QUESTIONS]),
+    autoescape=True,
+    undefined=StrictUndefined,
+    auto_reload=False,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+_markdown = MarkdownIt("commonmark").enable("table")
+
+
+@cache
+def prose(markdown: str) -> Markup:
+    """Markdown as HTML, with everything taken out that could run or load something."""
+    return Markup(nh3.clean(_markdown.render(markdown), tags=nh3.ALLOWED_TAGS - {"img"}, link_rel="noopener"))
+
+
+@cache
+def static_version() -> str:
+    """Hash of all static files. It stands in their addresses, so that a browser may keep them for ever."""
+    contents = b"".join(file.read_bytes() for file in sorted(STATIC.iterdir()))
+    return hashlib.sha256(contents).hexdigest()[:12]
+
+
+def asset(name: str) -> str:
+    """The address of a static file."""
+    return f"/static/{static_version()}/{name}"
+
+
+def ask(
+    question: Question, number: int, language: str, items: tuple[str, ...], options: tuple[str, ...]
+) -> Markup:
+    """A question as HTML, by the template beside its kind."""
+    shown = items or tuple(question.items)
+    template = _environment.get_template(question.template)
+    _ = load_language(language).text
+    return Markup(
+        template.render(
+            question=question, number=number, language=language, items=shown, options=options, _=_
+        )
+    )
+
+
+def render(
+    request: Request, template: str, *, language: str, status: int = 200, **values: Any
+) -> HTMLResponse:
+    """A page."""
+    site = site_of(request)
+    spoken = load_language(language)
+    content = _environment.get_template(template).render(
+        {
+            "_": spoken.text,
+            "language": language,
+            "languages": {code: load_language(code).name for code in site.protocol.languages},
+            "study_title": site.protocol.title.in_(language),
+            "contact": site.protocol.contact,
+            "texts": {name: text.in_(language) for name, text in site.protocol.texts},
+            "prose": prose,
+            "asset": asset,
+            "url": lambda name, **parts: str(request.app.url_path_for(name, **parts)),
+            "ask": lambda question, number, items=(), options=(): ask(
+                question, number, language, items, options
+            ),
+            "kind": site.kind,
+            "lab": site.lab,
+        }
+        | values
+    )
+    return HTMLResponse(content, status_code=status)

@@ -1,0 +1,114 @@
+"""The server: uvicorn with this application, in the foreground for a study or in a thread for a rehearsal."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import uvicorn
+from fastapi import FastAPI
+
+from stimuli.errors import InputError
+from study.participants import Kind
+from study.storage import open_store
+from study.web.app import create_app
+from study.web.credentials import open_credentials
+from study.web.site import Site, clips_of
+
+if TYPE_CHECKING:
+    from stimuli.manifest import Manifest
+
+    from study.protocol import Protocol
+
+SOFTWARE = f"expressive-motion-study {version('expressive-motion-study')}"
+GRACE_S = 5  # for requests under way when the server is told to stop
+
+
+@dataclass(frozen=True)
+class Links:
+    """Where a running study is found."""
+
+    participant: str
+    experimenter: str
+    password: str | None  # only at the first start, when it was made
+
+
+def serve(
+    protocol: Protocol,
+    manifest: Manifest,
+    *,
+    clips_folder: Path,
+    data_folder: Path,
+    announce: Callable[[Links], None],
+    url: str | None = None,
+    host: str = "127.0.0.1",
+    port: int = 8000,
+    kind: Kind = "participant",
+    lab: bool = True,
+) -> None:
+    """Serve a study until Ctrl-C; `announce` is called once it can be visited.
+
+    Answers are kept in `data_folder` (SQLite), or in the database at `url`. With `kind="test"` whoever enters
+    without a link is a test, kept apart from the data.
+    """
+    credentials, password = open_credentials(data_folder)
+    store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
+    clips = clips_of(manifest, clips_folder)
+    app = create_app(Site(protocol, store, clips, credentials, SOFTWARE, kind=kind, lab=lab))
+    server, listener = _server(app, host, port)
+    address = f"http://{host}:{listener.getsockname()[1]}"
+    links = Links(f"{address}/", f"{address}/experimenter", password)
+    threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
+    try:
+        server.run(sockets=[listener])
+    except KeyboardInterrupt:
+        pass  # uvicorn has finished what was under way and raises the signal again
+    finally:
+        store.close()
+
+
+@contextmanager
+def running(app: FastAPI, *, host: str = "127.0.0.1", port: int = 0) -> Iterator[str]:
+    """Serve an application in a thread for as long as the block lasts; gives its address."""
+    server, listener = _server(app, host, port)
+    thread = threading.Thread(target=lambda: server.run(sockets=[listener]))
+    thread.start()
+    try:
+        _when_started(server, lambda: None)
+        yield f"http://{host}:{listener.getsockname()[1]}"
+    finally:
+        server.should_exit = True
+        thread.join()
+        listener.close()
+
+
+def _server(app: FastAPI, host: str, port: int) -> tuple[uvicorn.Server, socket.socket]:
+    listener = socket.socket()
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+    except OSError as err:
+        listener.close()
+        raise InputError(f"--host {host} --port {port}: {err.strerror}. Is another study running?") from err
+    config = uvicorn.Config(
+        app,
+        log_level="warning",
+        access_log=False,  # addresses hold tokens
+        server_header=False,
+        timeout_graceful_shutdown=GRACE_S,
+    )
+    return uvicorn.Server(config), listener
+
+
+def _when_started(server: uvicorn.Server, then: Callable[[], None]) -> None:
+    while not server.started and not server.should_exit:
+        time.sleep(0.01)
+    if server.started:
+        then()

@@ -1,0 +1,79 @@
+"""What the application serves: one study with its clips and its store, and what its routes share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fastapi import Request
+
+from study.orders import Trial
+from study.participants import Kind
+
+if TYPE_CHECKING:
+    from stimuli.manifest import Manifest
+
+    from study.protocol import Protocol
+    from study.storage import Store
+    from study.web.credentials import Credentials
+
+
+@dataclass(frozen=True)
+class Clip:
+    """One rendered stimulus, as it is served."""
+
+    path: Path
+    sha256: str
+    size: int  # bytes
+    duration_s: float
+
+    @property
+    def name(self) -> str:
+        """Name in addresses: by content, so that it can be cached for ever and tells nobody the condition."""
+        return f"{self.sha256[:32]}.mp4"
+
+
+def clips_of(manifest: Manifest, folder: Path) -> dict[str, Clip]:
+    """The clips of a manifest by stimulus id; `folder` is where their files are."""
+    return {
+        stimulus: Clip(folder / clip.file, clip.sha256, clip.size, clip.duration_s)
+        for stimulus, clip in manifest.clips.items()
+    }
+
+
+def hashes(clips: Mapping[str, Clip]) -> dict[str, str]:
+    """The hash of each clip's file, by stimulus id."""
+    return {stimulus: clip.sha256 for stimulus, clip in clips.items()}
+
+
+def utc_now() -> datetime:
+    """The present moment."""
+    return datetime.now(UTC)
+
+
+@dataclass(frozen=True)
+class Site:
+    """One study, being served."""
+
+    protocol: Protocol
+    store: Store
+    clips: Mapping[str, Clip]  # by stimulus id
+    credentials: Credentials
+    software: str
+    kind: Kind = "participant"  # of whoever enters without a link
+    lab: bool = True  # whether one may enter without a link, and hand the browser on at the end
+    clock: Callable[[], datetime] = field(default=utc_now)
+
+    def clips_on(self, trial: Trial) -> dict[str, Clip]:
+        """The clips of a trial by role, in the order shown."""
+        reference = {} if trial.reference is None else {"reference": self.clips[trial.reference]}
+        return reference | {"clip": self.clips[trial.stimulus]}
+
+
+def site_of(request: Request) -> Site:
+    """The site a request is for."""
+    site: Site = request.app.state.site
+    return site

@@ -1,0 +1,78 @@
+// Answers wait here until the server has stored them: in localStorage, so that closing the browser loses nothing.
+
+const FIRST_WAIT_MS = 1000;
+const LONGEST_WAIT_MS = 30000;
+
+export class Outbox {
+  #key;
+  #address;
+  #busy = null;
+
+  /** `onstate(state)` hears "sending", "waiting" (for the network) and "empty". */
+  constructor(participant, address, onstate) {
+    this.#key = `outbox:${participant}`;
+    this.#address = address;
+    this.onstate = onstate;
+    addEventListener("online", () => this.#wake?.());
+  }
+
+  #wake = null;
+
+  get #waiting() { return JSON.parse(localStorage.getItem(this.#key) ?? "[]"); }
+  set #waiting(submissions) { localStorage.setItem(this.#key, JSON.stringify(submissions)); }
+
+  get empty() { return this.#waiting.length === 0; }
+
+  /** Keep a submission and send everything kept. Resolves to the server's last word: {ok, status, reason}. */
+  send(submission) {
+    this.#waiting = [...this.#waiting, submission];
+    return this.flush();
+  }
+
+  /** Send everything kept, oldest first, for as long as it takes. */
+  flush() {
+    this.#busy ??= this.#sendAll().finally(() => { this.#busy = null; });
+    return this.#busy;
+  }
+
+  async #sendAll() {
+    let word = { ok: true };
+    for (let wait = FIRST_WAIT_MS; !this.empty; ) {
+      const [submission] = this.#waiting;
+      this.onstate(wait === FIRST_WAIT_MS ? "sending" : "waiting");
+      word = await this.#post(submission);
+      if (word.again) {
+        this.onstate("waiting");
+        await this.#sleep(wait);
+        wait = Math.min(2 * wait, LONGEST_WAIT_MS);
+      } else {
+        this.#waiting = this.#waiting.filter((kept) => kept.id !== submission.id);
+        wait = FIRST_WAIT_MS;
+      }
+    }
+    this.onstate("empty");
+    return word;
+  }
+
+  async #post(submission) {
+    try {
+      const response = await fetch(this.#address, {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body: JSON.stringify(submission),
+      });
+      const again = response.status >= 500 || response.status === 429 || response.status === 408;
+      const body = again ? {} : await response.json();
+      return { ok: response.ok, status: response.status, reason: body.reason, again };
+    } catch {
+      return { ok: false, again: true };
+    }
+  }
+
+  #sleep(ms) {
+    return new Promise((resolve) => {
+      this.#wake = resolve;
+      setTimeout(resolve, ms);
+    });
+  }
+}
