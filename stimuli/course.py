@@ -41,7 +41,9 @@ class Course:
     clock: Curve | None = None  # share of the whole motion, spring and all, gone by at a share of time
 
     exaggeration: float = 1.0  # factor on the forcing term …
-    around: Literal["goal", "straight"] = "goal"  # … around the unforced path, or a straight reach to the goal
+    around: Literal["goal", "straight"] = (
+        "goal"  # … around the unforced path, or a straight reach to the goal
+    )
 
     window: float = 0.0  # share of time at the start in which …
     gain: FloatArray | None = None  # (d,) … accelerations are multiplied by this, …
@@ -49,7 +51,9 @@ class Course:
 
     dragged: FloatArray | None = None  # (d, d) target's acceleration loses this times the source's
     induced: FloatArray | None = None  # (d, d) target's rate of position gains this times the source's
-    carried: FloatArray | None = None  # (d, d) s; shown position of target gains this times the source's velocity
+    carried: FloatArray | None = (
+        None  # (d, d) s; shown position of target gains this times the source's velocity
+    )
 
     former_goal: FloatArray | None = None  # (d,) goal before a goal that glides …
     goal_lag_s: float = 0.0  # … with this time constant; 0: at once

@@ -42,7 +42,9 @@ class Learning(BaseModel):
     alpha: float = Field(50.0, gt=0, le=1000)  # gain of the spring; intensities compare only at equal alpha
     n_weights: int = Field(50, ge=2, le=1000)  # per joint, centred at equal distances in time
     method: Literal["ridge", "lwr"] = "ridge"  # lwr: locally weighted regression, as in the paper
-    regularisation: float = Field(1e-10, gt=0, le=1)  # of ridge, relative to the mean square response; 1e-6 if noisy
+    regularisation: float = Field(
+        1e-10, gt=0, le=1
+    )  # of ridge, relative to the mean square response; 1e-6 if noisy
     scheme: Scheme = "foh"
     dt_s: float = Field(0.01, gt=0, le=1)
 
@@ -110,7 +112,9 @@ def _ridge(offsets: FloatArray, learning: Learning) -> FloatArray:
     shares = np.arange(n + 1 + round(_REST_AFTER * n)) / n
     rest = np.repeat(offsets[-1:], len(shares) - n - 1, axis=0)
     rate = learning.alpha / 2
-    attractors = np.column_stack([basis(1 - np.minimum(shares, 1), learning.n_weights) / rate**2, np.ones(len(shares))])
+    attractors = np.column_stack(
+        [basis(1 - np.minimum(shares, 1), learning.n_weights) / rate**2, np.ones(len(shares))]
+    )
     step = step_of(learning.scheme, rate, 1 / n)
     responses = respond(attractors, np.zeros((2, attractors.shape[1])), step)[0]
     to_weights, to_goal = responses[:, :-1], responses[:, -1:]

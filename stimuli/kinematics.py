@@ -23,7 +23,11 @@ def link_poses(robot: Robot, positions: Mapping[str, float | FloatArray]) -> dic
             return np.eye(4)
         if link not in poses:
             joint = joints[link]
-            poses[link] = pose(joint.parent) @ placed(joint) @ moved(joint, positions.get(joint.name, robot.home[joint.name]))
+            poses[link] = (
+                pose(joint.parent)
+                @ placed(joint)
+                @ moved(joint, positions.get(joint.name, robot.home[joint.name]))
+            )
         return poses[link]
 
     for link in joints:

@@ -23,7 +23,9 @@ class Runner:
     def __init__(self, course: Course) -> None:
         self.course = course
         self.share = 0.0  # of the duration gone by
-        self._motion = np.zeros((2, len(course.joints)))  # offsets from the start, velocities per share of the clock
+        self._motion = np.zeros(
+            (2, len(course.joints))
+        )  # offsets from the start, velocities per share of the clock
 
     @property
     def positions(self) -> FloatArray:
@@ -43,7 +45,11 @@ class Runner:
         course, rate = self.course, self.course.rate
         shares = np.array([self.share, self.share + dt_s / course.tau_s])
         pull = attractor(course, shares)  # (2, d)
-        clock = shares if course.clock is None else np.where(shares < 1, course.clock(np.minimum(shares, 1)), shares)
+        clock = (
+            shares
+            if course.clock is None
+            else np.where(shares < 1, course.clock(np.minimum(shares, 1)), shares)
+        )
         anticipating = clock[0] < course.window - ROUNDING
         gains = course.gain if anticipating else None
         if anticipating and course.mirror is not None:
@@ -54,7 +60,9 @@ class Runner:
             shift = np.zeros((2, 2, len(level)))  # before and after the step; position and velocity
             if course.is_coupled:
                 shift = np.stack([old, new]) @ course.displaced[level].T
-                chased = chased + shift[:, 0] + np.stack([old[1], new[1]]) @ (2 / rate * course.dragging[level].T)
+                chased = (
+                    chased + shift[:, 0] + np.stack([old[1], new[1]]) @ (2 / rate * course.dragging[level].T)
+                )
             state = old[:, level] + shift[0]
             values = np.ones(len(level)) if gains is None else gains[level]
             for value in np.unique(values):

@@ -83,7 +83,7 @@ def levels(course: Course) -> list[IndexArray]:
     """Columns of the joints that can be carried out at once: first those without sources, then those they drive."""
     depth = np.zeros(len(course.joints), dtype=np.int64)
     if course.is_coupled:
-        depends = course.displaced != 0
+        depends = (course.displaced != 0) | (course.dragging != 0)
         for _ in course.joints:
             depth = np.max(np.where(depends, depth + 1, 0), axis=1, initial=0)
     return [np.flatnonzero(depth == at) for at in range(int(depth.max()) + 1)]

@@ -77,7 +77,9 @@ def respond(chased: FloatArray, state: FloatArray, step: Step) -> FloatArray:
     x_{k+2} = tr(A) x_{k+1} - det(A) x_k + b_{k+1} + (A - tr(A)) b_k.
     """
     (a, b), (c, d) = step.across
-    driven = step.before[:, None, None] * chased[:-1] + step.after[:, None, None] * chased[1:]  # b_k, (2, n, m)
+    driven = (
+        step.before[:, None, None] * chased[:-1] + step.after[:, None, None] * chased[1:]
+    )  # b_k, (2, n, m)
     source = driven.copy()
     source[0, 1:] += b * driven[1, :-1] - d * driven[0, :-1]
     source[1, 1:] += c * driven[0, :-1] - a * driven[1, :-1]

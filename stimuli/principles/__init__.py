@@ -24,7 +24,10 @@ def _kinds() -> dict[str, type[Principle]]:
     """Every principle in this folder, in the order in which they act."""
     for module in pkgutil.iter_modules(__path__):
         importlib.import_module(f"{__name__}.{module.name}")
-    return {kind.kind: kind for kind in sorted(Principle.__subclasses__(), key=lambda kind: (kind.stage, kind.kind))}
+    return {
+        kind.kind: kind
+        for kind in sorted(Principle.__subclasses__(), key=lambda kind: (kind.stage, kind.kind))
+    }
 
 
 PRINCIPLES: dict[str, type[Principle]] = _kinds()

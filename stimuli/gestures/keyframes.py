@@ -1,0 +1,118 @@
+"""Gestures authored as keyframes, in YAML.
+
+    gesture: wave
+    robot: pepper
+    title: {en: Greeting wave}
+    unit: deg                  # of angles; hands are 0–1 always
+    duration: 4.0 s
+    joints:                    # joints not named stay at home; "home" is the home value
+      RShoulderPitch: {0.0: home, 0.7: -40, 2.6: -38, 3.6: home}     # time in s: value
+
+Between keys a joint moves by a quintic with the velocities of a shape-preserving cubic (PCHIP) and no acceleration
+at the keys: twice continuously differentiable, at rest at both ends, and standing still between equal keys. Before
+its first key and after its last a joint holds still.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import yaml
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from scipy.interpolate import BPoly, PchipInterpolator
+
+from stimuli.errors import InputError
+from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, time_grid, whole_body
+from stimuli.robots.model import Joint, Robot
+from stimuli.trajectory import FloatArray, Trajectory
+from stimuli.units import TIME, in_base_unit
+
+SUFFIXES = (".yaml", ".yml")
+
+Seconds = Annotated[float, BeforeValidator(lambda value: in_base_unit(value, TIME))]
+Keys = Annotated[dict[Seconds, float | Literal["home"]], Field(min_length=1)]
+
+
+class Keyframes(BaseModel):
+    """The file as written."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    gesture: str
+    robot: str | None = None
+    title: str | dict[str, str] = ""
+    unit: Literal["deg", "rad"] = "rad"
+    duration: Annotated[Seconds, Field(gt=0)]
+    joints: Annotated[dict[str, Keys], Field(min_length=1)]
+
+
+def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
+    """The gesture in a keyframe file."""
+    text = read_text(path)
+    try:
+        tree = yaml.compose(text, Loader=yaml.SafeLoader)
+        frames = Keyframes.model_validate(yaml.safe_load(text))
+    except yaml.YAMLError as err:
+        raise InputError(f"{path}: not readable as YAML: {err}") from err
+    except ValidationError as err:
+        first = err.errors()[0]
+        name = ".".join(str(part) for part in first["loc"])
+        message = first["msg"].removeprefix("Value error, ")
+        raise InputError(
+            f"{path}:{_line(tree, first['loc'])}: {name}: {message}, not {first['input']!r}"
+        ) from err
+    times = time_grid(frames.duration, dt_s)
+    moving = {}
+    for name, keys in frames.joints.items():
+        place = f"{path}:{_line(tree, ('joints', name))}"
+        joint = known_joint(name, robot, place)
+        moving[name] = _motion(keys, joint, robot.home[name], frames, times, f"{place}: joints.{name}")
+    return whole_body(times, moving, robot)
+
+
+def _motion(
+    keys: dict[float, float | Literal["home"]],
+    joint: Joint,
+    home: float,
+    frames: Keyframes,
+    times: FloatArray,
+    place: str,
+) -> FloatArray:
+    moments = np.array(sorted(keys))
+    if moments[0] < 0 or moments[-1] > frames.duration:
+        late = moments[0] if moments[0] < 0 else moments[-1]
+        raise InputError(
+            f"{place}: a key at {late:g} s; keys lie from 0 to the duration, {frames.duration:g} s"
+        )
+    written = [keys[float(moment)] for moment in moments]
+    values = np.array([home if key == "home" else in_joint_unit(key, frames.unit, joint) for key in written])
+    outside = (values < joint.lower) | (values > joint.upper)
+    if outside.any():
+        first = int(np.argmax(outside))
+        limits = np.array([joint.lower, joint.upper])
+        unit = frames.unit if joint.kind == "revolute" else joint.unit
+        low, high = np.degrees(limits) if unit == "deg" else limits
+        raise InputError(
+            f"{place}: {written[first]} at {moments[first]:g} s is outside the joint's range, {low:.4g} to {high:.4g} {unit}"
+        )
+    if len(moments) == 1:
+        return np.full(len(times), values[0])
+    velocities = np.zeros(len(moments))
+    velocities[1:-1] = PchipInterpolator(moments, values).derivative()(moments[1:-1])
+    quintics = BPoly.from_derivatives(moments, [[y, v, 0.0] for y, v in zip(values, velocities, strict=True)])
+    return np.asarray(quintics(np.clip(times, moments[0], moments[-1])), dtype=np.float64)
+
+
+def _line(node: yaml.Node | None, location: tuple[Any, ...]) -> int:
+    """Line in the file, from 1, of the innermost entry on the way to a location."""
+    line = 1
+    for part in location:
+        if not isinstance(node, yaml.MappingNode):
+            break
+        for key, value in node.value:
+            if key.value == str(part):
+                line, node = key.start_mark.line + 1, value
+                break
+    return line
