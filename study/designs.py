@@ -16,6 +16,8 @@ def williams(n: int) -> tuple[Row, ...]:
     The first row is 0, 1, n-1, 2, n-2, …; the others add 1, 2, … modulo n. For odd n the mirrored rows are
     needed as well, so there are 2n. Williams (1949), Aust. J. Sci. Res. 2, 149–168.
     """
+    if n == 1:
+        return ((0,),)
     first = [0]
     for step in range(1, n):
         first.append((step + 1) // 2 if step % 2 else n - step // 2)

@@ -1,30 +1,33 @@
 """Orders: who sees what when, as pure functions of (design, seed, slot).
 
-A slot is a place in the design: 0, 1, 2, … Each balanced choice (a row of a square, the side of a button) cycles
-through its rows over successive slots, in blocks that are each shuffled anew, so that any run of slots is close
-to balanced and whole blocks are balanced exactly. `algorithm` names this drawing; change it, and the name.
+A slot is a place in the design: 0, 1, 2, … Each balanced choice (a row of a square, the side of a button)
+goes through its rows over successive slots, in blocks that are each shuffled anew: whole blocks are balanced
+exactly, and any run of slots nearly. `ALGORITHM` names this drawing; whoever changes one changes the other.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from math import lcm
 from typing import TypeVar
 
+from stimuli.errors import InputError
 from study.chance import Stream
 from study.designs import latin_square, williams
-from study.protocol import Order, Part, Protocol, Stimulus
+from study.protocol import PRACTICE, Part, Protocol, Stimulus
+from study.protocol.parts import BETWEEN, Alike, Method
 from study.questions import Question
 
 ALGORITHM = "orders/1"
+MAX_TRIES = 20_000  # shuffles until one keeps to `max_run`
 T = TypeVar("T")
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One page of one participant: a clip (after its reference, where there is one) and the questions on it."""
+    """One page of one participant: a clip (after its reference, if there is one) and the questions on it."""
 
     part: str
     number: int  # 1, 2, … within the part; 0 for practice
@@ -49,18 +52,16 @@ def draw_plan(protocol: Protocol, slot: int) -> Plan:
     """Draw what the participant in this slot sees."""
     trials: list[Trial] = []
     for part in protocol.parts.values():
-        shown = [
-            _shown(protocol.seed, slot, part, question, at) for at, question in enumerate(part.questions)
-        ]
+        draw = _Draw(protocol.seed, slot, part.id)
+        shown = [draw.shown(question, at) for at, question in enumerate(part.questions)]
         items = tuple(items for items, _ in shown)
         options = tuple(options for _, options in shown)
         if protocol.practice and protocol.practice.ask == part.id:
-            trials.append(Trial(part.id, 0, "practice", None, items, options, practice=True))
-        stimuli = [protocol.stimuli[stimulus] for stimulus in part.stimuli]
-        order = _order(part.order, stimuli, seed=protocol.seed, slot=slot, part=part.id)
+            trials.append(Trial(part.id, 0, PRACTICE, None, items, options, practice=True))
+        ordered = draw.ordered(part, [protocol.stimuli[stimulus] for stimulus in part.stimuli])
         trials += [
             Trial(part.id, number, stimulus.id, part.reference_of(stimulus.id), items, options)
-            for number, stimulus in enumerate(order, start=1)
+            for number, stimulus in enumerate(ordered, start=1)
         ]
     return Plan(slot, Stream(protocol.seed, slot).key, ALGORITHM, tuple(trials))
 
@@ -77,70 +78,114 @@ def assign_slot(counts: Mapping[int, int]) -> int:
     return slot
 
 
-def _shown(
-    seed: int, slot: int, part: Part, question: Question, at: int
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The order of a question's items and of its options, the same on all pages of a participant."""
-    items = question.shown_items(Stream(seed, slot, part.id, "items", at))
-    options = _balanced(question.option_orders, seed, slot, f"{part.id}/options/{at}")
-    return items, options
+def cycle(protocol: Protocol) -> int:
+    """The number of participants after which everything balanced is balanced exactly, as is each multiple."""
+    lengths = [1]
+    for part in protocol.parts.values():
+        lengths += [len(question.option_orders) for question in part.questions]
+        stimuli = [protocol.stimuli[stimulus] for stimulus in part.stimuli]
+        groups = _groups(part, stimuli)
+        if part.order.blocks:
+            lengths.append(_rows(part.order.blocks[1], len(groups)))
+        for group in groups:
+            method = "williams" if part.order.levels else part.order.stimuli
+            lengths.append(_rows(method, len(group)))
+    return lcm(*lengths)
 
 
-def _balanced(rows: Sequence[T], seed: int, slot: int, purpose: str) -> T:
-    """This slot's row: every block of as many slots as rows holds each row once, in an order of its own."""
-    block, place = divmod(slot, len(rows))
-    return Stream(seed, purpose, "block", block).shuffled(rows)[place]
+@dataclass(frozen=True)
+class _Draw:
+    """The draws of one part for one slot."""
+
+    seed: int
+    slot: int
+    part: str
+
+    def stream(self, purpose: str) -> Stream:
+        """Chance for one purpose, this participant's own."""
+        return Stream(self.seed, self.slot, self.part, purpose)
+
+    def balanced(self, rows: Sequence[T], purpose: str) -> T:
+        """This slot's row: each block of slots holds every row once, in an order of its own."""
+        block, place = divmod(self.slot, len(rows))
+        return Stream(self.seed, self.part, purpose, "block", block).shuffled(rows)[place]
+
+    def shown(self, question: Question, at: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """The order of a question's items and of its options, the same on all pages of a participant."""
+        items = tuple(question.items)
+        if question.shuffles_items:
+            items = self.stream(f"items {at}").shuffled(items)
+        return items, self.balanced(question.option_orders, f"options {at}")
+
+    def ordered(self, part: Part, stimuli: Sequence[Stimulus]) -> tuple[Stimulus, ...]:
+        """The stimuli in the order of this slot."""
+        order = part.order
+        if order.max_run:
+            return self.without_runs(stimuli, order.max_run)
+        groups = _groups(part, stimuli)
+        if order.levels:
+            groups = self.balanced_within(groups)
+        elif order.stimuli:
+            groups = [self.arranged(order.stimuli, group, f"group {at}") for at, group in enumerate(groups)]
+        if order.blocks:
+            groups = list(self.arranged(order.blocks[1], groups, "blocks"))
+        return tuple(stimulus for group in groups for stimulus in group)
+
+    def arranged(self, method: Method, things: Sequence[T], purpose: str) -> tuple[T, ...]:
+        """The things by that method."""
+        if method == "williams":
+            return tuple(things[at] for at in self.balanced(williams(len(things)), purpose))
+        if method == "latin square":
+            return tuple(things[at] for at in self.balanced(latin_square(len(things)), purpose))
+        if method == BETWEEN:
+            return (self.balanced(things, purpose),)
+        return self.stream(purpose).shuffled(things) if method == "shuffled" else tuple(things)
+
+    def balanced_within(self, groups: Sequence[tuple[T, ...]]) -> list[tuple[T, ...]]:
+        """Each group in an order of its own, the orders spread evenly over the groups.
+
+        The orders are the rows of a Williams square. With two levels and six principles, three begin
+        with the high level, and over successive slots each principle goes through all rows.
+        """
+        ordered = []
+        for at, group in enumerate(groups):
+            rows = williams(len(group))
+            block, shift = divmod(self.slot, len(rows))
+            stream = Stream(self.seed, self.part, "levels", len(rows), block)
+            places = stream.shuffled(range(len(groups)))
+            ordered.append(tuple(group[level] for level in rows[(places[at] + shift) % len(rows)]))
+        return ordered
+
+    def without_runs(self, stimuli: Sequence[Stimulus], max_run: Mapping[Alike, int]) -> tuple[Stimulus, ...]:
+        """A shuffle in which no more than so many in a row are alike; all such orders are equally likely."""
+        stream = self.stream("without runs")
+        for _ in range(MAX_TRIES):
+            order = stream.shuffled(stimuli)
+            if all(_longest_run(order, alike) <= most for alike, most in max_run.items()):
+                return order
+        limits = ", ".join(f"{alike}: {most}" for alike, most in max_run.items())
+        raise InputError(
+            f"parts.{self.part}.order.max_run: none of {MAX_TRIES} shuffles keeps to {{{limits}}}; allow more"
+        )
 
 
-def _order(
-    order: Order, stimuli: Sequence[Stimulus], *, seed: int, slot: int, part: str
-) -> tuple[Stimulus, ...]:
-    if order.principles is None:
-        return _arranged(str(order.stimuli), stimuli, order.max_run, seed=seed, slot=slot, part=part)
-    groups = {
-        principle: tuple(group)
-        for principle, group in groupby(stimuli, key=lambda s: (s.gesture, s.principle))
-    }
-    arranged = _arranged(order.principles, tuple(groups), {}, seed=seed, slot=slot, part=part)
-    within = _level_orders(order.levels, list(groups.values()), seed=seed, slot=slot, part=part)
-    by_group = dict(zip(groups, within, strict=True))
-    return tuple(stimulus for group in arranged for stimulus in by_group[group])
+def _longest_run(stimuli: Sequence[Stimulus], alike: Alike) -> int:
+    return max(len(list(run)) for _, run in groupby(stimuli, key=lambda stimulus: stimulus.feature(alike)))
 
 
-def _level_orders(
-    method: str, groups: Sequence[Sequence[Stimulus]], *, seed: int, slot: int, part: str
-) -> list[tuple[Stimulus, ...]]:
-    """Per principle, the order of its levels.
-
-    Balanced: within a participant the rows of a Williams square are spread evenly over the principles (with two
-    levels and six principles, three begin with the high one), and over successive slots each principle goes
-    through all rows.
-    """
-    if method == "fixed":
-        return [tuple(group) for group in groups]
-    if method == "shuffled":
-        return [Stream(seed, slot, part, "levels", at).shuffled(group) for at, group in enumerate(groups)]
-    rows = williams(len(groups[0]))
-    block, shift = divmod(slot, len(rows))
-    places = Stream(seed, part, "levels", block).shuffled(range(len(groups)))
-    return [
-        tuple(group[level] for level in rows[(place + shift) % len(rows)])
-        for group, place in zip(groups, places, strict=True)
-    ]
+def _groups(part: Part, stimuli: Sequence[Stimulus]) -> list[tuple[Stimulus, ...]]:
+    """The blocks of a part, or all stimuli as one."""
+    if not part.order.blocks:
+        return [tuple(stimuli)]
+    alike, _ = part.order.blocks
+    groups: dict[str | None, list[Stimulus]] = {}
+    for stimulus in stimuli:
+        groups.setdefault(stimulus.feature(alike), []).append(stimulus)
+    return [tuple(group) for group in groups.values()]
 
 
-def _arranged(
-    method: str, things: Sequence[T], max_run: Mapping[str, int], *, seed: int, slot: int, part: str
-) -> tuple[T, ...]:
-    """The things in the order of this slot."""
-    n = len(things)
-    stream = Stream(seed, slot, part)
-    if method == "fixed":
-        return tuple(things)
-    if method == "between participants":
-        return (_balanced(things, seed, slot, f"{part}/between"),)
+def _rows(method: Method | None, n: int) -> int:
+    """After how many participants a method has balanced n things."""
     if method == "williams":
-        return tuple(things[at] for at in _balanced(williams(n), seed, slot, f"{part}/rows"))
-    if method == "latin square":
-        return tuple(things[at] for at in _balanced(latin_square(n), seed, slot, f"{part}/rows"))
-    return stream.shuffled(things)
+        return len(williams(n))
+    return n if method in {"latin square", BETWEEN} else 1

@@ -5,12 +5,13 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, WithJsonSchema, model_validator
 from pydantic.functional_validators import ModelWrapValidatorHandler
-from pydantic_core import InitErrorDetails, PydanticCustomError
-from typing_extensions import Self
+from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
+
+Location = tuple[str | int, ...]  # keys and indices from the top of a value to something in it
 
 
 def nearest(name: object, known: Iterable[str]) -> str:
@@ -23,16 +24,34 @@ def nearest(name: object, known: Iterable[str]) -> str:
     return "known: " + ", ".join(names) if names else "none is defined"
 
 
-def wrong(message: str) -> PydanticCustomError:
+NAME = "name"  # type of errors about a field's name rather than its value
+
+
+def wrong(message: str, kind: str = "value") -> PydanticCustomError:
     """Make an error for a validator to raise, worded for the person who wrote the file."""
-    return PydanticCustomError("wrong", "{message}", {"message": message})
+    return PydanticCustomError(kind, "{message}", {"message": message})
 
 
-def wrong_at(location: tuple[str | int, ...], message: str, value: object) -> ValidationError:
+def wrong_at(location: Location, message: str, value: object, kind: str = "value") -> ValidationError:
     """Make an error for a validator to raise about something inside the value it was given."""
-    return ValidationError.from_exception_data(
-        "protocol", [InitErrorDetails(type=wrong(message), loc=location, input=value)]
-    )
+    return refusal([InitErrorDetails(type=wrong(message, kind), loc=location, input=value)])
+
+
+def refusal(errors: list[InitErrorDetails]) -> ValidationError:
+    """Make one error of several."""
+    return ValidationError.from_exception_data("protocol", errors)
+
+
+def relocated(error: ValidationError, before: Location, *, drop: int = 0) -> list[InitErrorDetails]:
+    """The errors of a value, placed where that value stands: `before` takes the place of `drop` elements."""
+    return [
+        InitErrorDetails(
+            type=wrong(detail["msg"], detail["type"]),
+            loc=(*before, *detail["loc"][drop:]),
+            input=detail["input"],
+        )
+        for detail in error.errors(include_url=False)
+    ]
 
 
 class Written(BaseModel):
@@ -47,27 +66,33 @@ class Written(BaseModel):
             return handler(data)
         except ValidationError as error:
             fields = [field.alias or name for name, field in cls.model_fields.items()]
-            raise ValidationError.from_exception_data(
-                error.title,
-                [
-                    InitErrorDetails(
-                        type=PydanticCustomError(
-                            detail["type"], "{message}", {"message": _message(detail, fields)}
-                        ),
-                        loc=detail["loc"],
-                        input=detail["input"],
-                    )
-                    for detail in error.errors(include_url=False)
-                ],
-            ) from None
+            raise refusal(reworded(error, fields)) from None
 
 
-def _message(detail: Any, fields: list[str]) -> str:
+def _telling(error: ValidationError) -> list[ErrorDetails]:
+    """The errors, without the one that a list is too short because its elements were refused."""
+    details = error.errors(include_url=False)
+    refused = {detail["loc"][:end] for detail in details for end in range(len(detail["loc"]))}
+    return [d for d in details if not (d["type"] == "too_short" and d["loc"] in refused)]
+
+
+def reworded(error: ValidationError, fields: Iterable[str]) -> list[InitErrorDetails]:
+    """The errors of a mapping with these fields, in words about the file rather than about Python."""
+    return [_reworded(detail, fields) for detail in _telling(error)]
+
+
+def _reworded(detail: ErrorDetails, fields: Iterable[str]) -> InitErrorDetails:
+    kind = NAME if detail["type"] in {NAME, "extra_forbidden", "missing"} else "value"
+    return {"type": wrong(_message(detail, fields), kind), "loc": detail["loc"], "input": detail["input"]}
+
+
+def _message(detail: ErrorDetails, fields: Iterable[str]) -> str:
     """Reword pydantic's message where it speaks of Python rather than of the file."""
     if len(detail["loc"]) == 1 and detail["type"] == "extra_forbidden":
         return f"is no field here; {nearest(detail['loc'][0], fields)}"
     reworded = {
         "missing": "is missing",
+        "too_short": "must not be empty",
         "model_type": "must be a mapping (name: value)",
         "dict_type": "must be a mapping (name: value)",
         "list_type": "must be a list",
@@ -87,8 +112,7 @@ def _message(detail: Any, fields: list[str]) -> str:
     if detail["type"] == "literal_error":
         names = re.findall(r"'([^']*)'", detail["ctx"]["expected"])
         return f"will not do; {nearest(detail['input'], names)}"
-    message: str = detail["msg"]
-    return message.replace("Input should be", "must be")
+    return detail["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
 
 
 _SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
-from typing_extensions import Self
 
-from study.protocol.modulations import Modulation
+from stimuli.principles import Modulation
 from study.questions import Asked, Question
 from study.text import Text
 from study.written import Written, wrong
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
-Method = Literal["williams", "latin square", "blocked", "shuffled", "fixed", "between participants"]
+Method = Literal["williams", "latin square", "shuffled", "fixed", "between participants"]
+
+Alike = Literal["gesture", "modulation", "principle", "level"]
+
+BETWEEN: Literal["between participants"] = "between participants"  # each participant sees but one
+NEUTRAL = "neutral"  # the modulation that changes nothing, always there
+PRACTICE = "practice"  # id of the stimulus one practises on
 
 
 class Selection(Written):
@@ -38,25 +44,76 @@ class Selection(Written):
         return (self.gesture,) if isinstance(self.gesture, str) else tuple(self.gesture)
 
 
+@dataclass(frozen=True)
+class Stimulus:
+    """One motion to be seen: a gesture under a modulation."""
+
+    id: str
+    gesture: str
+    modulation: Modulation
+    part: str
+    name: str | None = None  # of the modulation, where it has one
+    principle: str | None = None
+    level: str | None = None
+
+    def feature(self, alike: Alike) -> str | None:
+        """What this stimulus has in common with others."""
+        return {
+            "gesture": self.gesture,
+            "modulation": self.name,
+            "principle": self.principle,
+            "level": self.level,
+        }[alike]
+
+
 class Order(Written):
     """How a part's trials are ordered.
 
-    Either all `stimuli` by one method, or the `principles` by a method and within each its `levels`.
+    Either all `stimuli` by one method; or in blocks of the same gesture, principle or modulation: the blocks
+    by the method named there, and within each block its `levels` or `stimuli` by another.
     """
 
     stimuli: Method | None = None
+    gestures: Method | None = None
     principles: Method | None = None
-    levels: Literal["balanced", "shuffled", "fixed"] = "balanced"
-    max_run: dict[Literal["gesture", "modulation", "principle", "level"], Annotated[int, Field(ge=1)]] = {}
-    # no more than so many in a row with the same gesture, …
+    modulations: Method | None = None
+    levels: Literal["balanced"] | None = None  # within principles; evenly spread within each participant
+    max_run: dict[Alike, Annotated[int, Field(ge=1)]] = Field(default_factory=dict)
+    """With `stimuli: shuffled`: no more than so many in a row that are alike, such as {gesture: 2}."""
 
     @model_validator(mode="after")
-    def _either(self) -> Self:
-        if (self.stimuli is None) == (self.principles is None):
+    def _fits_together(self) -> Self:
+        blocks = [name for name in ("gestures", "principles", "modulations") if getattr(self, name)]
+        if len(blocks) > 1:
+            raise wrong(f"has blocks of {' and of '.join(blocks)}; choose one")
+        if not blocks and self.stimuli is None:
+            raise wrong("needs a method, such as williams or {principles: williams, levels: balanced}")
+        if self.levels and (blocks != ["principles"] or self.stimuli):
+            raise wrong("has levels; they go with principles alone: {principles: williams, levels: balanced}")
+        if blocks and not self.levels and self.stimuli is None:
             raise wrong(
-                "orders either stimuli or principles, such as {principles: williams, levels: balanced}"
+                f"leaves the order within its blocks open; add stimuli, as in {{{blocks[0]}: "
+                "williams, stimuli: shuffled}"
             )
+        if self.max_run and (blocks or self.stimuli != "shuffled"):
+            raise wrong("has max_run, which goes with {stimuli: shuffled} alone")
         return self
+
+    @property
+    def blocks(self) -> tuple[Alike, Method] | None:
+        """What the blocks have in common and how they are ordered."""
+        named: dict[Alike, Method | None] = {
+            "gesture": self.gestures,
+            "principle": self.principles,
+            "modulation": self.modulations,
+        }
+        return next(((alike, method) for alike, method in named.items() if method), None)
+
+    def shown(self, stimuli: Sequence[Stimulus]) -> int:
+        """How many of the stimuli one participant sees."""
+        groups = Counter(stimulus.feature(self.blocks[0]) if self.blocks else None for stimulus in stimuli)
+        each = [1 if self.stimuli == BETWEEN else size for size in groups.values()]
+        return max(each) if self.blocks and self.blocks[1] == BETWEEN else sum(each)
 
 
 def _order(value: Any) -> Any:
@@ -71,7 +128,7 @@ class WrittenPart(Written):
     stimuli: Selection
     reference: Name | None = None  # the level shown before each judged one
     order: Annotated[Order, BeforeValidator(_order)] = Order(stimuli="williams")
-    ask: list[Asked] = Field(min_length=1)
+    ask: tuple[Asked, ...] = Field(min_length=1)
 
 
 class PracticeStimulus(Written):
@@ -86,19 +143,6 @@ class Practice(Written):
 
     stimulus: PracticeStimulus
     ask: Name  # the part whose questions are asked
-
-
-@dataclass(frozen=True)
-class Stimulus:
-    """One motion to be seen: a gesture under a modulation."""
-
-    id: str
-    gesture: str
-    modulation: Modulation
-    part: str
-    name: str | None = None  # of the modulation, where it has one
-    principle: str | None = None
-    level: str | None = None
 
 
 @dataclass(frozen=True)

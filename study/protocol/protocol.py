@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
+import re
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, PrivateAttr, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 
+from stimuli.principles import Modulation
 from study.protocol.errors import ProtocolError
-from study.protocol.modulations import Modulation
-from study.protocol.parts import Name, Part, Practice, Stimulus, WrittenPart
+from study.protocol.modulations import read_levels, read_modulations
+from study.protocol.parts import NEUTRAL, PRACTICE, Name, Part, Practice, Stimulus, WrittenPart
 from study.protocol.plan import Analysis, Participants
+from study.protocol.references import contradictions
 from study.protocol.source import Source, read_source
-from study.questions import Asked, Question
+from study.protocol.texts import Texts, WrittenTexts, completed, files_named_in, shipped, shipped_demographics
+from study.questions import Asked
 from study.text import Text
-from study.written import Seconds, Written
+from study.written import NAME, Seconds, Written
 
 Language = Annotated[str, Field(pattern=r"^[a-z]{2,3}(-[A-Z]{2})?$")]
 
@@ -38,22 +43,27 @@ class Protocol(Written):
 
     study: Name
     title: Text
-    authors: list[str] = []
+    authors: tuple[str, ...] = ()
     contact: str
-    ethics: str | None = None
-    languages: tuple[Language, ...] = Field(min_length=1)
+    ethics: str | None = None  # the approval's number
+    languages: tuple[Language, ...] = Field(min_length=1)  # those of the title, unless told
+    minutes: int | None = Field(None, ge=1, le=600)  # how long it takes; estimated, unless told
     robot: str
     seed: int = Field(ge=0)
     video: Video = Video()
     gestures: dict[Name, Path] = Field(min_length=1)
-    modulations: dict[Name, Modulation] = {}
-    levels: dict[Name, Any] = {}
+    modulations: Annotated[dict[Name, Modulation], BeforeValidator(read_modulations)] = Field(
+        default_factory=dict
+    )
+    levels: Annotated[dict[Name, dict[Name, Modulation]], BeforeValidator(read_levels)] = Field(
+        default_factory=dict
+    )
     practice: Practice | None = None
     written_parts: dict[Name, WrittenPart] = Field(alias="parts", min_length=1)
     participants: Participants
     analysis: Analysis = Analysis()
-    demographics: list[Asked] = []
-    texts: dict[str, Text] = {}
+    demographics: tuple[Asked, ...] = Field(default_factory=shipped_demographics, validate_default=True)
+    written_texts: WrittenTexts = Field(WrittenTexts(), alias="texts")
 
     _source: Source = PrivateAttr()
 
@@ -64,6 +74,11 @@ class Protocol(Written):
             title = data.get("title")
             return data | {"languages": list(title) if isinstance(title, dict) else ["en"]}
         return data
+
+    @property
+    def source(self) -> Source:
+        """The file this was read from, with the place of every value."""
+        return self._source
 
     @property
     def path(self) -> Path:
@@ -79,52 +94,95 @@ class Protocol(Written):
     def stimuli(self) -> Mapping[str, Stimulus]:
         """Every motion of the study by id: the parts' in the order written, then the practice's."""
         found: dict[str, Stimulus] = {}
-        for part_id, part in self.written_parts.items():
-            found |= {stimulus.id: stimulus for stimulus in self._stimuli_of(part_id, part)}
+        for part_id in self.written_parts:
+            found |= {stimulus.id: stimulus for stimulus in self.stimuli_of(part_id)}
         if self.practice:
             chosen = self.practice.stimulus
             modulation = self.modulations[chosen.modulation] if chosen.modulation else Modulation()
-            found["practice"] = Stimulus(
-                "practice", chosen.gesture, modulation, self.practice.ask, chosen.modulation
+            found[PRACTICE] = Stimulus(
+                PRACTICE, chosen.gesture, modulation, self.practice.ask, chosen.modulation
             )
         return found
 
-    def _stimuli_of(self, part_id: str, part: WrittenPart) -> list[Stimulus]:
-        chosen = part.stimuli
+    def stimuli_of(self, part_id: str) -> list[Stimulus]:
+        """The stimuli of a part, references too, in the order written."""
+        chosen = self.written_parts[part_id].stimuli
         stimuli = []
         for gesture in chosen.gestures:
             prefix = chosen.prefix + (f"{gesture}_" if len(chosen.gestures) > 1 else "")
-            for name in chosen.modulations or ():
-                stimuli.append(Stimulus(prefix + name, gesture, self.modulations[name], part_id, name))
+            for written_name in chosen.modulations or ():
+                for name in self.members(written_name):
+                    modulation = self.modulations.get(name, Modulation())
+                    stimuli.append(Stimulus(prefix + name, gesture, modulation, part_id, name))
             for kind in chosen.levels or ():
-                for level, value in zip(("low", "medium", "high"), self.levels[kind], strict=True):
-                    modulation = Modulation({kind: value})
-                    stimuli.append(
-                        Stimulus(f"{prefix}{kind}_{level}", gesture, modulation, part_id, None, kind, level)
-                    )
+                for level, modulation in self.levels[kind].items():
+                    name = f"{prefix}{kind}_{level}"
+                    stimuli.append(Stimulus(name, gesture, modulation, part_id, None, kind, level))
         return stimuli
+
+    def members(self, name: str) -> tuple[str, ...]:
+        """The modulations a name stands for: itself, or the members of its grid; none if it is unknown."""
+        if name in self.modulations or name == NEUTRAL:
+            return (name,)
+        return tuple(member for member in self.modulations if re.fullmatch(rf"{re.escape(name)}_\d+", member))
 
     @cached_property
     def parts(self) -> Mapping[str, Part]:
         """The parts by id, with everything looked up."""
-        parts = {}
-        for part_id, written in self.written_parts.items():
-            stimuli = self._stimuli_of(part_id, written)
-            by_key = {(s.gesture, s.principle, s.level): s.id for s in stimuli}
-            judged = [s for s in stimuli if s.level is None or s.level != written.reference]
-            references = {
-                s.id: by_key[s.gesture, s.principle, written.reference] for s in judged if written.reference
+        return {part_id: self._part(part_id) for part_id in self.written_parts}
+
+    def _part(self, part_id: str) -> Part:
+        written = self.written_parts[part_id]
+        stimuli = self.stimuli_of(part_id)
+        ids = {(s.gesture, s.principle, s.level): s.id for s in stimuli}
+        judged = [s for s in stimuli if written.reference is None or s.level != written.reference]
+        references = {
+            s.id: ids[s.gesture, s.principle, written.reference] for s in judged if written.reference
+        }
+        intro = self.texts.introducing(comparison=bool(references))
+        return Part(
+            id=part_id,
+            title=written.title,
+            intro=self._completed(written.intro) if written.intro else intro,
+            stimuli=tuple(s.id for s in judged),
+            questions=written.ask,
+            order=written.order,
+            references=references,
+        )
+
+    @cached_property
+    def texts(self) -> Texts:
+        """The texts around the questions, the protocol's own or else the shipped ones, ready to be shown."""
+        return Texts(
+            **{
+                name: self._completed(getattr(self.written_texts, name) or shipped(name))
+                for name in Texts.model_fields
             }
-            parts[part_id] = Part(
-                id=part_id,
-                title=written.title,
-                intro=written.intro or Text(""),
-                stimuli=tuple(s.id for s in judged),
-                questions=tuple(written.ask),
-                order=written.order,
-                references=references,
-            )
-        return parts
+        )
+
+    @cached_property
+    def _length(self) -> tuple[int, float]:
+        """How many videos one participant sees, and an estimate of how long everything takes, in seconds."""
+        videos, seconds = 0, 60.0
+        for part_id, part in self.written_parts.items():
+            stimuli = [s for s in self.stimuli_of(part_id) if s.level is None or s.level != part.reference]
+            shown = part.order.shown(stimuli)
+            items = sum(len(question.items) for question in part.ask)
+            videos += shown * (2 if part.reference else 1)
+            seconds += shown * (20 + 4 * items + (10 if part.reference else 0))
+        return videos, seconds
+
+    def _completed(self, text: Text) -> Text:
+        videos, seconds = self._length
+        values = {
+            "title": self.title,
+            "contact": Text(self.contact),
+            "authors": Text(", ".join(self.authors)),
+            "ethics": Text(self.ethics or ""),
+            "videos": Text(str(videos)),
+            "minutes": Text(str(self.minutes or math.ceil(seconds / 60))),
+        }
+        return completed(text, self.languages, folder=self.folder, values=values)
 
     @cached_property
     def sha256(self) -> str:
@@ -133,13 +191,17 @@ class Protocol(Written):
         The YAML counts as the values read, in the order written: comments and layout do not change the hash,
         nor do new fields of later versions of this software.
         """
+        paths = [str(path) for path in self.gestures.values()]
+        texts = [text for _, text in self.written_texts if text]
+        texts += [part.intro for part in self.written_parts.values() if part.intro]
+        paths += [text.root[language] for text in texts for language in files_named_in(text, self.folder)]
         files = {
-            str(path): hashlib.sha256((self.folder / path).read_bytes()).hexdigest()
+            path: hashlib.sha256((self.folder / path).read_bytes()).hexdigest()
             if (self.folder / path).is_file()
             else None
-            for path in self.gestures.values()
+            for path in paths
         }
-        content = json.dumps([self._source.value, files], ensure_ascii=False, separators=(",", ":"))
+        content = json.dumps([self.source.value, files], ensure_ascii=False, separators=(",", ":"))
         return hashlib.sha256(content.encode()).hexdigest()
 
 
@@ -148,16 +210,16 @@ def load_protocol(path: Path) -> Protocol:
 
     Raises ProtocolError with everything that is wrong, each at its line.
     """
-    file = path / "protocol.yaml" if path.is_dir() else path
-    source = read_source(file)
+    source = read_source(path / "protocol.yaml" if path.is_dir() else path)
     try:
         protocol = Protocol.model_validate(source.value)
     except ValidationError as error:
         raise ProtocolError(
-            source.problem(
-                detail["loc"], detail["msg"], name=detail["type"] in {"missing", "extra_forbidden"}
-            )
+            source.problem(detail["loc"], detail["msg"], name=detail["type"] == NAME)
             for detail in error.errors(include_url=False)
         ) from None
     protocol._source = source
+    problems = [source.problem(location, message) for location, message in contradictions(protocol)]
+    if problems:
+        raise ProtocolError(problems)
     return protocol

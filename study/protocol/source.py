@@ -16,8 +16,7 @@ from typing import Any, NoReturn
 import yaml
 
 from study.protocol.errors import Problem, ProtocolError
-
-Location = tuple[str | int, ...]  # keys and indices from the top of the file to a value
+from study.written import Location
 
 MAX_BYTES = 256 * 1024
 MAX_DEPTH = 24
@@ -36,25 +35,29 @@ class Source:
     def problem(self, location: Sequence[str | int], message: str, *, name: bool = False) -> Problem:
         """Say what is wrong at a location, or as near to it as the file goes.
 
-        Elements that are not in the file (a missing field, the branch of a choice) are passed over. `name` marks
-        the field's name instead of its value.
+        Elements that are not in the file (a missing field, the branch of a choice) are passed over. `name`:
+        the field's name is at fault, not its value.
         """
         found: Location = ()
         for element in location:
             if (*found, element) in self.places:
                 found = (*found, element)
-        complete = found == tuple(location)
-        line, column = (self.key_places if name or not complete else self.places).get(
-            found, self.places.get(found, (1, 1))
-        )
-        field = found if complete else (*found, *(e for e in location[-1:] if e not in found))
-        value = self._quoted(found) if complete else ""
-        return Problem(self.path, line, column, written(field), f"{value}{message}")
+        rest = location[-1:] if found[-1:] != tuple(location[-1:]) else ()
+        if rest and not isinstance(self._value_at(found), (dict, list)):
+            rest = ()  # a plain value where a mapping could stand: the value itself is at fault
+        at_name = name or bool(rest)
+        line, column = (self.key_places if at_name else self.places).get(found) or self.places[found]
+        value = "" if at_name else self._quoted(found)
+        return Problem(self.path, line, column, written((*found, *rest)), value + message)
 
-    def _quoted(self, location: Location) -> str:
+    def _value_at(self, location: Location) -> Any:
         value = self.value
         for element in location:
             value = value[element]
+        return value
+
+    def _quoted(self, location: Location) -> str:
+        value = self._value_at(location)
         if isinstance(value, (dict, list)) or value is None:
             return ""
         text = str(value)
@@ -135,7 +138,7 @@ class _Reader:
                 event, "anchors (&) and aliases (*) are not used in protocols; write it out, or `extends`"
             )
         if getattr(event, "tag", None):
-            self._refuse(event, f"tags ({event.tag}) are not used in protocols")
+            self._refuse(event, "tags (!) are not used in protocols; quote text that begins with !")
         if isinstance(event, yaml.ScalarEvent):
             return self._scalar(event)
         if len(at) >= MAX_DEPTH:
@@ -153,7 +156,7 @@ class _Reader:
     def _mapping(self, events: Iterator[yaml.Event], at: Location) -> dict[str, Any]:
         values: dict[str, Any] = {}
         while not isinstance(event := next(events), yaml.MappingEndEvent):
-            if not isinstance(event, yaml.ScalarEvent) or event.tag or event.anchor:
+            if not isinstance(event, yaml.ScalarEvent) or getattr(event, "tag", None) or event.anchor:
                 self._refuse(event, "a name must be plain text")
             key = event.value
             if key in values:
@@ -184,14 +187,15 @@ class _Reader:
 
 
 def _place(event: yaml.Event) -> tuple[int, int]:
-    return event.start_mark.line + 1, event.start_mark.column + 1
+    mark = event.start_mark
+    return (mark.line + 1, mark.column + 1) if mark else (1, 1)
 
 
 def _plainly(error: yaml.MarkedYAMLError, text: str) -> str:
     """Say what is wrong with the YAML in words that tell what to do."""
     mark = error.problem_mark
-    line = text.splitlines()[mark.line] if mark and mark.line < len(text.splitlines()) else ""
-    if "\t" in line[: (mark.column if mark else 0) + 1]:
+    lines = text.splitlines()
+    if mark and mark.line < len(lines) and "\t" in lines[mark.line][: mark.column + 1]:
         return "a tab indents this line; indent with spaces"
     return (
         f"is not YAML: {error.problem or error.context}; look at the indentation, colons and brackets here, "

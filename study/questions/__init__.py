@@ -9,11 +9,10 @@ import importlib
 import pkgutil
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, SerializeAsAny, ValidationError, ValidationInfo, WithJsonSchema
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic import BeforeValidator, SerializeAsAny, ValidationError, WithJsonSchema
 
 from study.questions.question import AnswerError, Question
-from study.written import nearest, wrong, wrong_at
+from study.written import NAME, nearest, refusal, relocated, wrong, wrong_at
 
 __all__ = ["QUESTIONS", "AnswerError", "Asked", "Question"]
 
@@ -25,7 +24,7 @@ QUESTIONS: dict[str, type[Question]] = {
 }
 
 
-def _read(value: Any, info: ValidationInfo) -> Question:
+def _read(value: Any) -> Question:
     """Read `{rate: {…}}` as a question of that kind."""
     if isinstance(value, Question):
         return value
@@ -33,21 +32,11 @@ def _read(value: Any, info: ValidationInfo) -> Question:
         raise wrong(f"must be one question, written {{kind: …}}; kinds: {', '.join(QUESTIONS)}")
     ((kind, body),) = value.items()
     if kind not in QUESTIONS:
-        raise wrong_at((kind,), f"is no kind of question; {nearest(kind, QUESTIONS)}", body)
+        raise wrong_at((kind,), f"is no kind of question; {nearest(kind, QUESTIONS)}", body, NAME)
     try:
-        return QUESTIONS[kind].model_validate(body, context=info.context)
+        return QUESTIONS[kind].model_validate(body)
     except ValidationError as error:
-        raise ValidationError.from_exception_data(
-            kind,
-            [
-                InitErrorDetails(
-                    type=PydanticCustomError(detail["type"], "{message}", {"message": detail["msg"]}),
-                    loc=(kind, *detail["loc"]),
-                    input=detail["input"],
-                )
-                for detail in error.errors(include_url=False)
-            ],
-        ) from None
+        raise refusal(relocated(error, (kind,))) from None
 
 
 Asked = Annotated[SerializeAsAny[Question], BeforeValidator(_read), WithJsonSchema({"type": "object"})]

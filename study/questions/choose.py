@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Mapping
 from typing import ClassVar, Literal
 
@@ -26,7 +25,8 @@ class Choose(Question):
         """The one choice."""
         return {self.item: self.text}
 
-    def values(self, item: str) -> Mapping[str, Text]:
+    @property
+    def values(self) -> Mapping[str, Text]:
         """The options."""
         return self.options
 
@@ -37,10 +37,3 @@ class Choose(Question):
         if self.sides == "fixed":
             return (options,)
         return tuple(tuple(options[place] for place in row) for row in williams(len(options)))
-
-    def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
-        """Choose the target more often than the rest."""
-        options = tuple(self.options)
-        if target in options and rng.random() < 0.7 * effect:
-            return {self.item: str(target)}
-        return {self.item: rng.choice(options)}

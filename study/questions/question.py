@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from stimuli.errors import InputError
-from study.chance import Stream
 from study.text import Text
 from study.written import Written, nearest
 
@@ -29,17 +28,23 @@ class Question(Written, ABC):
     def items(self) -> Mapping[str, Text]:
         """What is answered: item ids and the texts beside them, in the order written."""
 
-    @abstractmethod
-    def values(self, item: str) -> Mapping[str, Text] | None:
+    @property
+    def values(self) -> Mapping[str, Text] | None:
         """The answers an item can have, with their labels, in the order written; None where it is open."""
+        return None
 
-    @abstractmethod
     def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
         """Answer as a participant might.
 
         `target` is what the stimulus is meant to evoke: an item where items are rated, an answer where one
         is chosen. `effect` 0 answers by chance; 1 sees the target about as well as the paper's participants.
         """
+        seen = self.values is not None and target in self.values and rng.random() < 0.7 * effect
+        return {item: target if seen and target else self.guess(rng) for item in self.items}
+
+    def guess(self, rng: random.Random) -> str:
+        """Any possible answer."""
+        return rng.choice(tuple(self.values or ("",)))
 
     def check(self, answers: Mapping[str, str]) -> None:
         """Raise AnswerError unless there is one possible answer to each item, and to nothing else."""
@@ -54,13 +59,13 @@ class Question(Written, ABC):
                 raise AnswerError(f"{item}: an answer is missing")
 
     def _check_value(self, item: str, answer: str) -> None:
-        values = self.values(item)
-        if values is not None and answer not in values:
-            raise AnswerError(f"{item}: {answer!r} is no possible answer; {nearest(answer, values)}")
+        if self.values is not None and answer not in self.values:
+            raise AnswerError(f"{item}: {answer!r} is no possible answer; {nearest(answer, self.values)}")
 
-    def shown_items(self, stream: Stream) -> tuple[str, ...]:
-        """The items in the order one participant sees them, on every page alike."""
-        return tuple(self.items)
+    @property
+    def shuffles_items(self) -> bool:
+        """Whether each participant gets an item order of their own, the same on every page."""
+        return False
 
     @property
     def option_orders(self) -> tuple[tuple[str, ...], ...]:
@@ -74,15 +79,15 @@ class Question(Written, ABC):
 
     def codebook(self, language: str = "en") -> list[dict[str, Any]]:
         """One entry per item: what was asked, and what the answers mean."""
+        values = None if self.values is None else {v: text.in_(language) for v, text in self.values.items()}
         return [
             {
                 "item": item,
                 "kind": self.kind,
                 "question": self.text.in_(language),
                 "label": label.in_(language),
-                "values": None if values is None else {v: text.in_(language) for v, text in values.items()},
+                "values": values,
                 "optional": self.optional,
             }
             for item, label in self.items.items()
-            for values in [self.values(item)]
         ]

@@ -8,7 +8,6 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from study.chance import Stream
 from study.questions.question import Question
 from study.text import Ends, NamedTexts, Text
 
@@ -32,14 +31,16 @@ class Rate(Question):
         """Lowest and highest point."""
         return 1, self.points
 
-    def values(self, item: str) -> Mapping[str, Text]:
+    @property
+    def values(self) -> Mapping[str, Text]:
         """The points "1" to "5"; only the ends bear a label."""
         labels = {1: self.ends[0], self.points: self.ends[1]}
         return {str(point): labels.get(point, Text(str(point))) for point in range(1, self.points + 1)}
 
-    def shown_items(self, stream: Stream) -> tuple[str, ...]:
-        """The rows from top to bottom."""
-        return stream.shuffled(tuple(self.items)) if self.item_order == "shuffled" else tuple(self.items)
+    @property
+    def shuffles_items(self) -> bool:
+        """Whether the rows are shuffled for each participant."""
+        return self.item_order == "shuffled"
 
     def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
         """Rate the target high and the rest low, as a rounded normal judgement."""

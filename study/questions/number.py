@@ -1,0 +1,43 @@
+"""Give a number, such as an age."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Mapping
+from typing import ClassVar
+
+from pydantic import Field
+
+from study.questions.question import AnswerError, Question
+from study.text import Text
+
+
+class Number(Question):
+    """A field for a number with its bounds and unit."""
+
+    kind: ClassVar[str] = "number"
+    item: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    least: float | None = None
+    most: float | None = None
+    whole: bool = False
+    unit: Text | None = None
+
+    @property
+    def items(self) -> Mapping[str, Text]:
+        """The one number."""
+        return {self.item: self.text}
+
+    def _check_value(self, item: str, answer: str) -> None:
+        if not re.fullmatch(r"-?\d{1,15}" if self.whole else r"-?\d{1,15}(\.\d{1,15})?", answer):
+            raise AnswerError(f"{item}: {answer!r} is not a {'whole ' if self.whole else ''}number")
+        if self.least is not None and float(answer) < self.least:
+            raise AnswerError(f"{item}: {answer} is less than {self.least:g}")
+        if self.most is not None and float(answer) > self.most:
+            raise AnswerError(f"{item}: {answer} is more than {self.most:g}")
+
+    def guess(self, rng: random.Random) -> str:
+        """Any whole number within the bounds."""
+        least = 0 if self.least is None else self.least
+        most = least + 100 if self.most is None else self.most
+        return str(rng.randint(int(least), int(most)))
