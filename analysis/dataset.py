@@ -1,0 +1,261 @@
+"""Responses: from a CSV file to one array of answers per question, checked row by row.
+
+Every place in the arrays comes from the protocol or from a sorted list of participants, never from the
+order in which rows happen to stand, so pairs are pairs of one participant and levels are in the order of
+their names.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analysis.rows import MISSING, ResponsesError, Rows, read_rows
+
+if TYPE_CHECKING:
+    from study.protocol import Protocol
+
+FloatArray = NDArray[np.float64]
+Codes = NDArray[np.int8]
+
+
+@dataclass(frozen=True)
+class Answers:
+    """The answers to one question of one part."""
+
+    part: str
+    participants: tuple[str, ...]
+    stimuli: tuple[str, ...]
+    items: tuple[str, ...]
+    options: tuple[str, ...]
+    codes: Codes  # (participants, stimuli, items) index of the option, −1 where there is no answer
+
+    @property
+    def scale(self) -> tuple[float, float] | None:
+        """Lowest and highest option as numbers, or None where options are not numbers."""
+        try:
+            numbers = [float(option) for option in self.options]
+        except ValueError:
+            return None
+        return min(numbers), max(numbers)
+
+    @property
+    def ratings(self) -> FloatArray:
+        """The answers as numbers, (participants, stimuli, items), NaN where there is none."""
+        return np.array([*map(float, self.options), np.nan])[self.codes]
+
+    def chose(self, option: str) -> FloatArray:
+        """1 where that option was chosen, 0 where another was, NaN without answer; shaped as `codes`."""
+        numbers = [float(candidate == option) for candidate in self.options]
+        return np.array([*numbers, np.nan])[self.codes]
+
+    def of_participants(self, kept: NDArray[np.bool_]) -> Answers:
+        """The same question with fewer participants."""
+        names = tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep)
+        return replace(self, participants=names, codes=self.codes[kept])
+
+
+@dataclass(frozen=True)
+class Responses:
+    """All answers of a study that a test could use."""
+
+    path: Path
+    sha256: str
+    participants: tuple[str, ...]  # sorted
+    questions: tuple[Answers, ...]
+    trials: Mapping[str, FloatArray] = field(
+        default_factory=dict
+    )  # part → (participants, stimuli), when seen
+    median_rt_s: FloatArray | None = None  # (participants,) time per answer
+
+    def answers(self, part: str, item: str | None = None) -> Answers:
+        """The question of a part with that item; its first question if none is named."""
+        for question in self.questions:
+            if question.part == part and (item is None or item in question.items):
+                return question
+        raise ResponsesError(f"part {part!r} has no question with options{f' on {item!r}' if item else ''}")
+
+    def of_participants(self, kept: NDArray[np.bool_]) -> Responses:
+        """The responses of some participants."""
+        return replace(
+            self,
+            participants=tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep),
+            questions=tuple(question.of_participants(kept) for question in self.questions),
+            trials={part: trials[kept] for part, trials in self.trials.items()},
+            median_rt_s=None if self.median_rt_s is None else self.median_rt_s[kept],
+        )
+
+
+def read_responses(path: Path, protocol: Protocol) -> Responses:
+    """Read `participant, stimulus, item, response` (and `part`, `trial`, `rt_ms` where present).
+
+    Columns may stand in any order and others are ignored; an empty response is a missing answer. Rows on the
+    practice, of pages outside the parts or on questions without options are left out. Anything else that the protocol
+    does not know, and a second answer to the same item, is refused with its line. Raises ResponsesError.
+    """
+    rows = read_rows(path)
+    empty = [
+        Answers(
+            part=part.id,
+            participants=tuple(sorted(name for name in rows.names("participant") if name)),
+            stimuli=part.stimuli,
+            items=tuple(question.items),
+            options=tuple(question.values),
+            codes=np.empty((0, 0, 0), dtype=np.int8),
+        )
+        for part in protocol.parts.values()
+        for question in part.questions
+        if question.values
+    ]
+    which = _question_of_each_row(rows, protocol, empty)
+    nobody = rows.codes("participant", {"": 0}) == 0
+    rows.refuse_if((which >= 0) & nobody, "has no participant")
+    questions = tuple(_fill(question, rows, np.flatnonzero(which == q)) for q, question in enumerate(empty))
+    participants = empty[0].participants if empty else ()
+    return Responses(
+        path=path,
+        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        participants=participants,
+        questions=questions,
+        trials=_trials(rows, protocol, participants),
+        median_rt_s=_median_rt_s(rows, which >= 0, participants),
+    )
+
+
+def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[Answers]) -> NDArray[np.int64]:
+    """Index of the question a row answers, (rows,); −1 for rows that no test is about."""
+    asked = {
+        (stimulus, item): q
+        for q, question in enumerate(questions)
+        for stimulus in question.stimuli
+        for item in question.items
+    }
+    judged = {stimulus for part in protocol.parts.values() for stimulus in part.stimuli}
+    references = {
+        reference
+        for part in protocol.parts.values()
+        for s in part.stimuli
+        if (reference := part.reference_of(s))
+    }
+    items = {
+        stimulus: {item for question in part.questions for item in question.items}
+        for part in protocol.parts.values()
+        for stimulus in part.stimuli
+    }
+    unasked, unknown_stimulus, unknown_item = -1, -2, -3
+
+    def place(stimulus: str, item: str) -> int:
+        if (stimulus, item) in asked:
+            return asked[stimulus, item]
+        if stimulus == "practice" or stimulus in references or item in items.get(stimulus, ()):
+            return unasked
+        return unknown_item if stimulus in judged else unknown_stimulus
+
+    stimuli, names = rows.names("stimulus"), rows.names("item")
+    places = np.array([[place(stimulus, item) for item in names] for stimulus in stimuli], dtype=np.int64)
+    stimulus_codes = rows.codes("stimulus", {name: i for i, name in enumerate(stimuli)})
+    item_codes = rows.codes("item", {name: i for i, name in enumerate(names)})
+    which = places[stimulus_codes, item_codes]
+    if "part" in rows.frame:  # rows of pages that belong to no part: demographics, attention checks
+        elsewhere = rows.codes("part", {"": 0} | dict.fromkeys(protocol.parts, 0)) < 0
+        which = np.where(elsewhere, unasked, which)
+    rows.refuse_if(
+        which == unknown_stimulus,
+        lambda row: (
+            f"stimulus {rows.value('stimulus', row)!r} is not in the protocol; "
+            f"known: {', '.join(sorted(judged))}"
+        ),
+    )
+    rows.refuse_if(
+        which == unknown_item,
+        lambda row: (
+            f"item {rows.value('item', row)!r} is not asked about {rows.value('stimulus', row)}; "
+            f"known: {', '.join(sorted(items[rows.value('stimulus', row)]))}"
+        ),
+    )
+    return which
+
+
+def _fill(question: Answers, rows: Rows, mine: NDArray[np.int64]) -> Answers:
+    """The question with the answers of its rows."""
+    shape = (len(question.participants), len(question.stimuli), len(question.items))
+    places = [
+        rows.codes(column, {name: i for i, name in enumerate(names)})[mine]
+        for column, names in (
+            ("participant", question.participants),
+            ("stimulus", question.stimuli),
+            ("item", question.items),
+        )
+    ]
+    options = {option: i for i, option in enumerate(question.options)} | {"": MISSING}
+    answers = rows.codes("response", options, unknown=-2)[mine]
+    rows.refuse_if(
+        _among(mine, answers == -2, len(rows.frame)),
+        lambda row: (
+            f"response {rows.value('response', row)!r} is not an answer to "
+            f"{rows.value('item', row)}; known: {', '.join(question.options)}, or empty for none"
+        ),
+    )
+    cells = np.ravel_multi_index(tuple(places), shape)
+    _refuse_duplicates(rows, mine, cells, int(np.prod(shape)))
+    codes = np.full(shape, MISSING, dtype=np.int8)
+    codes.reshape(-1)[cells] = answers
+    return replace(question, codes=codes)
+
+
+def _refuse_duplicates(rows: Rows, mine: NDArray[np.int64], cells: NDArray[np.int64], size: int) -> None:
+    if not np.any(np.bincount(cells, minlength=size) > 1):
+        return
+    _, first = np.unique(cells, return_index=True)
+    again = np.ones(cells.size, dtype=bool)
+    again[first] = False
+
+    def message(row: int) -> str:
+        cell = cells[np.searchsorted(mine, row)]
+        earlier = int(mine[np.argmax(cells == cell)])
+        answered = ", ".join(rows.value(column, row) for column in ("participant", "stimulus", "item"))
+        return f"second answer to ({answered}); the first is in line {rows.line(earlier)}. Keep one of them"
+
+    rows.refuse_if(_among(mine, again, len(rows.frame)), message)
+
+
+def _among(mine: NDArray[np.int64], bad: NDArray[np.bool_], n: int) -> NDArray[np.bool_]:
+    """A mark on the rows of `mine` that are bad, over all n rows."""
+    marked = np.zeros(n, dtype=bool)
+    marked[mine[bad]] = True
+    return marked
+
+
+def _trials(rows: Rows, protocol: Protocol, participants: tuple[str, ...]) -> dict[str, FloatArray]:
+    """When in its part each participant saw each stimulus, by the column `trial`."""
+    if "trial" not in rows.frame:
+        return {}
+    number = {name: int(name) if name.isdecimal() else MISSING for name in rows.names("trial")}
+    trial = rows.codes("trial", number)
+    person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
+    seen = {}
+    for part in protocol.parts.values():
+        stimulus = rows.codes("stimulus", {name: i for i, name in enumerate(part.stimuli)})
+        there = (stimulus >= 0) & (trial >= 0) & (person >= 0)
+        times = np.full((len(participants), len(part.stimuli)), np.nan)
+        times[person[there], stimulus[there]] = trial[there]
+        seen[part.id] = times
+    return seen
+
+
+def _median_rt_s(rows: Rows, mine: NDArray[np.bool_], participants: tuple[str, ...]) -> FloatArray | None:
+    """Each participant's median time per answer, (participants,)."""
+    if "rt_ms" not in rows.frame:
+        return None
+    import pandas as pd
+
+    person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
+    times = pd.to_numeric(rows.frame["rt_ms"], errors="coerce").to_numpy(dtype=float)
+    medians = pd.Series(times[mine]).groupby(person[mine]).median() / 1000
+    return medians.reindex(range(len(participants))).to_numpy(dtype=float)

@@ -1,0 +1,83 @@
+"""Who is left out of the tests, by rules declared before the first answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analysis.dataset import Responses
+from study.protocol import Exclusions
+
+
+@dataclass(frozen=True)
+class Excluded:
+    """One participant left out, and the first rule that said so."""
+
+    participant: str
+    rule: str
+
+
+@dataclass(frozen=True)
+class Flow:
+    """How many participants answered, were left out by which rule, and are analysed."""
+
+    answered: int
+    excluded: tuple[Excluded, ...]
+    analysed: int
+    rules: tuple[str, ...]  # those in force, in the order applied
+
+    def count(self, rule: str) -> int:
+        """How many a rule left out."""
+        return sum(one.rule == rule for one in self.excluded)
+
+
+def apply_exclusions(responses: Responses, rules: Exclusions) -> tuple[Responses, Flow]:
+    """The responses of those who stay, and the flow of participants."""
+    in_force: list[tuple[str, NDArray[np.bool_]]] = []
+    if rules.incomplete:
+        in_force.append(("incomplete", _incomplete(responses)))
+    if rules.faster_than is not None:
+        if responses.median_rt_s is None:
+            in_force.append(
+                (f"faster than {rules.faster_than:g} s (not applied: no column rt_ms)", _nobody(responses))
+            )
+        else:
+            quick = np.nan_to_num(responses.median_rt_s, nan=np.inf) < rules.faster_than
+            in_force.append((f"faster than {rules.faster_than:g} s per answer (median)", quick))
+    if rules.straight_lining:
+        in_force.append(("same answer throughout a part", _straight_lining(responses)))
+    left_out: dict[str, str] = {}
+    for rule, breaks in in_force:
+        for place in np.flatnonzero(breaks):
+            left_out.setdefault(responses.participants[place], rule)
+    kept = np.array([name not in left_out for name in responses.participants], dtype=bool)
+    flow = Flow(
+        answered=len(responses.participants),
+        excluded=tuple(Excluded(name, left_out[name]) for name in responses.participants if name in left_out),
+        analysed=int(kept.sum()),
+        rules=tuple(rule for rule, _ in in_force),
+    )
+    return responses.of_participants(kept), flow
+
+
+def _nobody(responses: Responses) -> NDArray[np.bool_]:
+    return np.zeros(len(responses.participants), dtype=bool)
+
+
+def _incomplete(responses: Responses) -> NDArray[np.bool_]:
+    """Participants with an unanswered item, (participants,)."""
+    unfinished = _nobody(responses)
+    for question in responses.questions:
+        unfinished |= (question.codes < 0).any(axis=(1, 2))
+    return unfinished
+
+
+def _straight_lining(responses: Responses) -> NDArray[np.bool_]:
+    """Participants who gave every item of a rated part the same answer, (participants,)."""
+    straight = _nobody(responses)
+    for question in responses.questions:
+        if len(question.items) > 1:
+            straight |= question.codes.max(axis=(1, 2)) == question.codes.min(axis=(1, 2))
+    return straight

@@ -1,0 +1,157 @@
+"""The protocol's plan of analysis, carried out: which answers meet which test."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from analysis.chance import DEFINITIONS, Definition, fixed
+from analysis.dataset import Answers, Responses
+from analysis.exclusions import Flow, apply_exclusions
+from analysis.levels import Compared, Comparison, comparisons
+from analysis.statistics.samples import Moments, moments
+from analysis.target import Judging, Recognised, recognition
+from stimuli.errors import InputError
+
+if TYPE_CHECKING:
+    from study.protocol import Hypothesis, Protocol
+
+
+class PlanError(InputError):
+    """A hypothesis that the study's parts cannot answer."""
+
+
+@dataclass(frozen=True)
+class Targets:
+    """A hypothesis that targets are rated above chance."""
+
+    hypothesis: str
+    part: str
+    answers: Answers
+    judging: Judging
+    chance: str  # name of the definition
+    definition: Definition
+    results: Mapping[str, Recognised]  # by stimulus
+    means: Mapping[str, Mapping[str, Moments]]  # stimulus → item
+
+
+@dataclass(frozen=True)
+class Levels:
+    """A hypothesis that one level is judged higher than another."""
+
+    hypothesis: str
+    mirrors: str | None
+    part: str
+    answers: Answers
+    judging: Judging
+    comparison: Comparison
+    results: Mapping[str, Compared]  # by principle
+
+
+Outcome = Targets | Levels
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Every hypothesis of a study with its tests, and who was counted."""
+
+    responses: Responses
+    flow: Flow
+    outcomes: Mapping[str, Outcome]  # by hypothesis
+    alpha: float
+
+
+def carry_out(responses: Responses, protocol: Protocol) -> Findings:
+    """Leave out whom the protocol says, and test each of its hypotheses on the rest."""
+    kept, flow = apply_exclusions(responses, protocol.participants.exclude)
+    outcomes = {
+        name: decide(name, hypothesis, kept, protocol)
+        for name, hypothesis in protocol.analysis.hypotheses.items()
+    }
+    return Findings(responses=kept, flow=flow, outcomes=outcomes, alpha=protocol.analysis.alpha)
+
+
+def decide(name: str, hypothesis: Hypothesis, responses: Responses, protocol: Protocol) -> Outcome:
+    """Test one hypothesis."""
+    answers = responses.answers(hypothesis.part, hypothesis.item)
+    judging = Judging(
+        test=hypothesis.test,
+        alternative=hypothesis.alternative,
+        correction=hypothesis.correction,
+        alpha=protocol.analysis.alpha,
+    )
+    if hypothesis.compare is None:
+        return _targets(name, hypothesis, answers, protocol, judging)
+    return _levels(name, hypothesis, answers, protocol, judging)
+
+
+def _targets(
+    name: str, hypothesis: Hypothesis, answers: Answers, protocol: Protocol, judging: Judging
+) -> Targets:
+    if answers.scale is None:
+        raise PlanError(f"{name}: the answers of part {answers.part} are no numbers, so none is above chance")
+    meant = {s: protocol.stimuli[s].name or s for s in answers.stimuli}
+    targets = {stimulus: item for stimulus, item in meant.items() if item in answers.items}
+    if not targets:
+        raise PlanError(f"{name}: no stimulus of part {answers.part} bears the name of an item")
+    chance = hypothesis.against if hypothesis.against is not None else "midpoint"
+    definition = DEFINITIONS[chance] if isinstance(chance, str) else fixed(chance)
+    ratings = answers.ratings
+    return Targets(
+        hypothesis=name,
+        part=answers.part,
+        answers=answers,
+        judging=judging,
+        chance=chance if isinstance(chance, str) else "fixed",
+        definition=definition,
+        results=recognition(answers, targets, definition, judging),
+        means={
+            stimulus: {item: moments(ratings[:, s, i]) for i, item in enumerate(answers.items)}
+            for s, stimulus in enumerate(answers.stimuli)
+        },
+    )
+
+
+def _levels(
+    name: str, hypothesis: Hypothesis, answers: Answers, protocol: Protocol, judging: Judging
+) -> Levels:
+    assert hypothesis.compare is not None
+    if hypothesis.outcome is not None and hypothesis.outcome not in answers.options:
+        raise PlanError(
+            f"{name}: outcome {hypothesis.outcome!r} is no answer; known: {', '.join(answers.options)}"
+        )
+    if hypothesis.outcome is None and answers.scale is None:
+        raise PlanError(f"{name}: name the outcome that counts as 1; one of {', '.join(answers.options)}")
+    first, second = hypothesis.compare
+    by_level = {
+        level: {
+            stimulus.removesuffix(f"_{level}"): stimulus
+            for stimulus in answers.stimuli
+            if protocol.stimuli[stimulus].level == level
+        }
+        for level in hypothesis.compare
+    }
+    pairs = {
+        principle: (stimulus, by_level[second][principle])
+        for principle, stimulus in by_level[first].items()
+        if principle in by_level[second]
+    }
+    if not pairs:
+        raise PlanError(f"{name}: part {answers.part} shows no stimulus at both levels {first} and {second}")
+    comparison = Comparison(
+        levels=hypothesis.compare,
+        pairs=pairs,
+        item=hypothesis.item or answers.items[0],
+        outcome=hypothesis.outcome,
+        other=next((option for option in answers.options if option != hypothesis.outcome), None),
+    )
+    return Levels(
+        hypothesis=name,
+        mirrors=hypothesis.mirrors,
+        part=answers.part,
+        answers=answers,
+        judging=judging,
+        comparison=comparison,
+        results=comparisons(answers, comparison, judging),
+    )

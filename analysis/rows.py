@@ -1,0 +1,119 @@
+"""Rows of a CSV file: columns as integer codes, and the line of any row that must be mended."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stimuli.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+REQUIRED = ("participant", "stimulus", "item", "response")
+OPTIONAL = ("part", "trial", "rt_ms")
+MISSING = -1
+
+
+class ResponsesError(InputError):
+    """A file of responses that cannot be read without guessing."""
+
+
+class Rows:
+    """The rows of a file as integer codes, with their line numbers for whoever has to mend them."""
+
+    def __init__(self, path: Path, frame: pd.DataFrame) -> None:
+        self.path = path
+        self.frame = frame
+
+    def names(self, column: str) -> list[str]:
+        """Every value that occurs in a column."""
+        return [str(name) for name in self.frame[column].cat.categories]
+
+    def codes(self, column: str, places: Mapping[str, int], unknown: int = MISSING) -> NDArray[np.int64]:
+        """The place of each row's value, (rows,)."""
+        ours = np.array(
+            [places.get(name, unknown) for name in self.names(column)] + [unknown], dtype=np.int64
+        )
+        return ours[self.frame[column].cat.codes.to_numpy()]
+
+    def value(self, column: str, row: int) -> str:
+        """What stands in a column of one row."""
+        return str(self.frame[column].iloc[row])
+
+    def line(self, row: int) -> int:
+        """The line a row ends on; line breaks inside quotes make it differ from the row's number."""
+        with self.path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file, delimiter=_delimiter(self.path))
+            filled = (reader.line_num for record in reader if record)
+            return next(line for number, line in enumerate(filled) if number == row + 1)
+
+    def refuse_if(self, bad: NDArray[np.bool_], message: str | Callable[[int], str]) -> None:
+        """Refuse the file at the first bad row."""
+        if bad.any():
+            row = int(np.argmax(bad))
+            said = message if isinstance(message, str) else message(row)
+            more = f" ({int(bad.sum())} rows like this)" if bad.sum() > 1 else ""
+            raise ResponsesError(f"{self.path}:{self.line(row)}: {said}{more}")
+
+
+def read_rows(path: Path) -> Rows:
+    """Read the columns in question as the texts written in the file."""
+    import pandas as pd
+
+    columns = _header(path)
+    wanted = [column for column in (*REQUIRED, *OPTIONAL) if column in columns]
+    try:
+        frame = pd.read_csv(
+            path,
+            sep=_delimiter(path),
+            usecols=wanted,
+            dtype={column: "category" if column != "rt_ms" else "str" for column in wanted},
+            keep_default_na=False,
+            encoding="utf-8-sig",
+        )
+    except UnicodeDecodeError as error:
+        line = path.read_bytes()[: error.start].count(b"\n") + 1
+        raise ResponsesError(f"{path}:{line}: is not UTF-8; save the file as CSV UTF-8") from error
+    except pd.errors.ParserError as error:
+        raise ResponsesError(
+            f"{path}: {str(error).removeprefix('Error tokenizing data. C error: ')}"
+        ) from error
+    return Rows(path, frame)
+
+
+def _header(path: Path) -> list[str]:
+    """The names of the columns, or what is wrong with them."""
+    try:
+        first = _first_bytes(path)
+    except OSError as error:
+        raise ResponsesError(f"{path}: cannot be read: {error.strerror}") from error
+    if first[:2] in {b"\xff\xfe", b"\xfe\xff"}:
+        raise ResponsesError(f"{path}: is UTF-16 (Excel's 'Unicode text'); save the file as CSV UTF-8")
+    with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
+        columns = next(csv.reader(file, delimiter=_delimiter(path)), [])
+    if missing := [column for column in REQUIRED if column not in columns]:
+        raise ResponsesError(
+            f"{path}:1: needs the columns {', '.join(REQUIRED)}; {', '.join(missing)} not among "
+            f"{', '.join(columns) or 'none'}"
+        )
+    if twice := [column for column in columns if columns.count(column) > 1]:
+        raise ResponsesError(f"{path}:1: column {twice[0]!r} stands twice")
+    return columns
+
+
+def _first_bytes(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(2)
+
+
+def _delimiter(path: Path) -> str:
+    """Comma, semicolon or tab: whichever the header has most of."""
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        header = file.readline()
+    return max(",;\t", key=header.count)

@@ -1,0 +1,119 @@
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analysis.dataset import read_responses
+from analysis.rows import ResponsesError
+from study.protocol import Protocol
+from tests.analysis.conftest import EMOTIONS, HIGHER, Write, choices, ratings
+
+
+def test_answers_stand_where_the_protocol_says_whatever_the_order_of_rows(
+    paper: Protocol, write: Write
+) -> None:
+    rows = [*ratings(), *choices()]
+    sorted_responses = read_responses(write(rows, "a.csv"), paper)
+    random.Random(3).shuffle(rows)
+    shuffled = read_responses(write(rows, "b.csv"), paper)
+    assert shuffled.participants == sorted_responses.participants
+    for one, other in zip(sorted_responses.questions, shuffled.questions, strict=True):
+        assert np.array_equal(one.codes, other.codes)
+    assert sorted_responses.answers("intensity").options == ("lower", "higher")
+    assert sorted_responses.answers("recognition").stimuli == EMOTIONS
+
+
+def test_every_rating_reads_back(paper: Protocol, write: Write) -> None:
+    rows = ratings(n=5)
+    answers = read_responses(write(rows), paper).answers("recognition")
+    for participant, stimulus, item, response in rows:
+        place = (
+            answers.participants.index(participant),
+            answers.stimuli.index(stimulus),
+            answers.items.index(item),
+        )
+        assert answers.ratings[place] == float(response)
+
+
+def test_levels_are_told_apart_by_name_not_by_appearance(paper: Protocol, write: Write) -> None:
+    for rows in (choices(), choices()[::-1]):
+        answers = read_responses(write([*ratings(), *rows]), paper).answers("intensity")
+        chose = answers.chose("higher")
+        for principle, (high, low) in HIGHER.items():
+            assert np.nansum(chose[:, answers.stimuli.index(f"{principle}_high")]) == high
+            assert np.nansum(chose[:, answers.stimuli.index(f"{principle}_low")]) == low
+
+
+def test_empty_and_absent_answers_are_missing(paper: Protocol, write: Write) -> None:
+    rows = ratings(n=2)
+    first = rows[0][:3]
+    answers = read_responses(write([(*first, ""), *rows[2:]]), paper).answers("recognition")
+    assert np.isnan(answers.ratings[0, 0, :2]).all()
+    assert int(np.isnan(answers.ratings).sum()) == 2
+
+
+@pytest.mark.parametrize("text", [
+    "﻿participant,stimulus,item,response\nP1,joy,joy,4\n",
+    "participant;stimulus;item;response\nP1;joy;joy;4\n",
+    "participant\tstimulus\titem\tresponse\r\nP1\tjoy\tjoy\t4\r\n",
+    'note,response,item,stimulus,participant\n"a, ""b""\nc",4,joy,joy,P1\n',
+])  # fmt: skip
+def test_ways_of_writing_a_table_that_leave_no_doubt_are_read(
+    paper: Protocol, tmp_path: Path, text: str
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_text(text, encoding="utf-8")
+    assert read_responses(path, paper).answers("recognition").ratings[0, 0, 0] == 4
+
+
+HEADER = "participant,stimulus,item,response\n"
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    ("participant,stimulus,item\n", r"r.csv:1: needs the columns .*; response not among"),
+    ("", r"r.csv:1: needs the columns"),
+    ("response," + HEADER, r"r.csv:1: column 'response' stands twice"),
+    (HEADER + "P1,joy,joy,6\n", r"r.csv:2: response '6' is not an answer to joy; known: 1, 2, 3, 4, 5"),
+    (HEADER + 'P1,joy,joy,4\nP1,"sa\nd",joy,4\n', r"r.csv:4: stimulus 'sa\\nd' is not in the protocol"),
+    (HEADER + "\nP1,joy,envy,4\n", r"r.csv:3: item 'envy' is not asked about joy; known: anger, fear"),
+    (HEADER + "P1,joy,joy,4\nP2,joy,joy,4\nP1,joy,joy,5\n",
+     r"r.csv:4: second answer to \(P1, joy, joy\); the first is in line 2"),
+    (HEADER + "P1\n", r"r.csv:2: stimulus '' is not in the protocol"),
+    (HEADER + "P1,joy,joy,4,5\nP1,joy,joy,4\n", r"r.csv"),
+    (HEADER + ",joy,joy,4\n", r"r.csv:2: has no participant"),
+])  # fmt: skip
+def test_what_cannot_be_read_without_guessing_is_refused_at_its_line(
+    paper: Protocol, tmp_path: Path, text: str, message: str
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ResponsesError, match=message):
+        read_responses(path, paper)
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    ((HEADER + "P1,joy,joy,4\nPé,joy,joy,4\n").encode("latin-1"), r"r.csv:3: is not UTF-8"),
+    (HEADER.encode("utf-16"), r"is UTF-16"),
+])  # fmt: skip
+def test_other_encodings_are_refused_by_name(
+    paper: Protocol, tmp_path: Path, content: bytes, message: str
+) -> None:
+    path = tmp_path / "r.csv"
+    path.write_bytes(content)
+    with pytest.raises(ResponsesError, match=message):
+        read_responses(path, paper)
+    with pytest.raises(ResponsesError, match="cannot be read"):
+        read_responses(tmp_path / "none.csv", paper)
+
+
+def test_practice_and_demographics_are_left_out(paper: Protocol, tmp_path: Path) -> None:
+    path = tmp_path / "r.csv"
+    path.write_text(
+        "participant,part,stimulus,item,response\n"
+        "P1,demographics,,age,31\nP1,recognition,practice,joy,3\nP1,recognition,joy,joy,4\n",
+        encoding="utf-8",
+    )
+    assert int((read_responses(path, paper).answers("recognition").codes >= 0).sum()) == 1
