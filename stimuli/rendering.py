@@ -45,7 +45,11 @@ class Renderer:
         self.model.vis.quality.offsamples = SAMPLES
         self.data = mujoco.MjData(self.model)
         self._scene = mujoco.MjvScene(self.model, maxgeom=self.model.ngeom + 10)
-        for flag in (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_SKYBOX, mujoco.mjtRndFlag.mjRND_HAZE):
+        for flag in (
+            mujoco.mjtRndFlag.mjRND_SHADOW,
+            mujoco.mjtRndFlag.mjRND_SKYBOX,
+            mujoco.mjtRndFlag.mjRND_HAZE,
+        ):
             self._scene.flags[flag] = False
         self._context = mujoco.MjrContext(self.model, mujoco.mjtFontScale.mjFONTSCALE_50)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
@@ -63,7 +67,7 @@ class Renderer:
         self._last: tuple[Mapping[str, float], Image] | None = None
 
     def frame(self, positions: Mapping[str, float]) -> Image:
-        """The robot in this pose, shape (height, width, 3), top row first. A held pose gives the same array."""
+        """The robot in this pose, (height, width, 3), top row first. A held pose gives the same array."""
         if self._last is not None and self._last[0] == positions:
             return self._last[1]
         pose(self.model, self.data, self.robot, positions)
@@ -104,7 +108,9 @@ class Renderer:
         signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1]), axis=-1).reshape(8, 3)
         box = self.model.geom_aabb[geoms]
         local = box[:, None, :3] + signs * box[:, None, 3:]
-        turned = np.einsum("gij,gkj->gki", places[:, :9].reshape(-1, 3, 3), local) + places[:, None, 9:]
+        turned: NDArray[np.float64] = (
+            np.einsum("gij,gkj->gki", places[:, :9].reshape(-1, 3, 3), local) + places[:, None, 9:]
+        )
         return turned.reshape(-1, 3)
 
     def project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -113,26 +119,23 @@ class Renderer:
         seen = (points - self.data.cam_xpos[camera]) @ self.data.cam_xmat[camera].reshape(3, 3)
         focal = self.height / 2 / np.tan(np.radians(self.model.cam_fovy[camera]) / 2)
         depth = np.maximum(-seen[:, 2:], self.model.vis.map.znear * self.model.stat.extent)
-        return np.array([self.width / 2, self.height / 2]) + focal * seen[:, :2] / depth
+        pixels: NDArray[np.float64] = (
+            np.array([self.width / 2, self.height / 2]) + focal * seen[:, :2] / depth
+        )
+        return pixels
 
     def _draw(self, left: int, bottom: int, right: int, top: int) -> Image:
         """Draw a rectangle of the picture and read it back, top row first."""
+        across, up = (left + right - self.width) / 2, np.array([bottom, top]) - self.height / 2
         for eye in self._scene.camera:
-            half = (eye.frustum_top - eye.frustum_bottom) / 2
-            pixel = 2 * half / self.height
-            self._window(eye, pixel, left, bottom, right, top)
+            pixel = (eye.frustum_top - eye.frustum_bottom) / self.height
+            eye.frustum_center, eye.frustum_width = across * pixel, (right - left) / 2 * pixel
+            eye.frustum_bottom, eye.frustum_top = up * pixel
         area = mujoco.MjrRect(left, bottom, right - left, top - bottom)
         mujoco.mjr_render(area, self._scene, self._context)
         pixels = np.empty((top - bottom, right - left, 3), np.uint8)
         mujoco.mjr_readPixels(pixels, None, area, self._context)
         return pixels[::-1]
-
-    def _window(self, eye: Any, pixel: float, left: int, bottom: int, right: int, top: int) -> None:
-        """Narrow the frustum to a rectangle of pixels."""
-        eye.frustum_center = ((left + right) / 2 - self.width / 2) * pixel
-        eye.frustum_width = (right - left) / 2 * pixel
-        eye.frustum_bottom = (bottom - self.height / 2) * pixel
-        eye.frustum_top = (top - self.height / 2) * pixel
 
     def close(self) -> None:
         """Free the context; a renderer left open costs some 20 MB."""
@@ -157,7 +160,7 @@ def open_context(width: int, height: int) -> Any:
         try:
             context = import_module(f"mujoco.{backend}").GLContext(width, height)
             context.make_current()
-        except Exception as error:  # noqa: BLE001 - drivers raise anything, even AttributeError
+        except Exception as error:  # drivers raise anything, even AttributeError
             problems.append(f"{backend}: {type(error).__name__}: {error}")
         else:
             return context

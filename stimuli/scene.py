@@ -71,7 +71,7 @@ def extent(model: mujoco.MjModel, robot: Robot) -> tuple[FloatArray, FloatArray]
 
 
 def outline(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> FloatArray:
-    """Points whose hull holds a geom, in the world, shape (n, 3): a mesh's vertices, or the corners of its box."""
+    """Points around a geom in the world, shape (n, 3): a mesh's vertices, or the corners of its box."""
     mesh = model.geom_dataid[geom]
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
         start = model.mesh_vertadr[mesh]
@@ -117,7 +117,9 @@ def add_contact_shadow(spec: mujoco.MjSpec, low: FloatArray, high: FloatArray) -
     shade = 0.34 * np.exp(-((distance / 1.25) ** 4)) + 0.20 * np.exp(-((distance / 2.1) ** 2))
     image = np.repeat(np.rint(255 * (1 - shade)).astype(np.uint8).reshape(-1, 1), 3, axis=1)
     texture = mujoco.mjtTexture.mjTEXTURE_2D
-    spec.add_texture(name="shadow", type=texture, width=pixels, height=pixels, nchannel=3, data=image.ravel().tolist())
+    spec.add_texture(
+        name="shadow", type=texture, width=pixels, height=pixels, nchannel=3, data=image.ravel().tolist()
+    )
     material = spec.add_material(name="shadow", rgba=[*BACKDROP, 1], specular=0, shininess=0)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "shadow"
     spec.worldbody.add_geom(
@@ -134,7 +136,7 @@ def add_camera(spec: mujoco.MjSpec, name: str, *, middle: float, tall: float) ->
     """A camera that sees `tall` metres around the height `middle`, at the robot's distance."""
     turn = Rotation.from_euler("yz", [-ELEVATION_DEG, AZIMUTH_DEG], degrees=True)
     distance = tall / 2 / np.tan(np.radians(FOVY_DEG) / 2)
-    position = turn.apply([distance, 0, 0]) + [0, 0, middle]
+    position = turn.apply([distance, 0, 0]) + np.array([0, 0, middle])
     axes = turn.as_matrix()[:, [1, 2, 0]]  # right, up and backwards, as MuJoCo's cameras look along -z
     quat = Rotation.from_matrix(axes).as_quat(scalar_first=True)
     spec.worldbody.add_camera(name=name, pos=position, quat=quat, fovy=FOVY_DEG)

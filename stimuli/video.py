@@ -18,14 +18,14 @@ OPTIONS = {"preset": "veryfast", "crf": "18", "profile": "high"}
 def write_video(path: Path, frames: Iterable[NDArray[np.uint8]], *, fps: int) -> int:
     """Write frames (height, width, 3) RGB at a constant rate and return how many there were.
 
-    The file appears under its name only when it is whole. One encoder thread, so that the bytes do not depend
-    on the number of cores; a keyframe each second, so that a participant can go back; the index first, so that
-    playing starts before all is loaded.
+    The file appears under its name only when it is whole. One encoder thread, so that the bytes do not
+    depend on the number of cores; a keyframe each second, so that a participant can go back; the index
+    first, so that playing starts before all is loaded.
     """
     partial = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
     try:
         count = _encode(partial, frames, fps)
-        os.replace(partial, path)
+        partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
     return count
@@ -42,7 +42,7 @@ def _encode(path: Path, frames: Iterable[NDArray[np.uint8]], fps: int) -> int:
         coder.time_base = Fraction(1, fps)
         coder.colorspace = coder.color_primaries = coder.color_trc = BT709
         coder.color_range = LIMITED
-        for count, image in enumerate(frames, start=1):  # noqa: B007 - the count is returned
+        for count, image in enumerate(frames, start=1):
             if count == 1:
                 stream.height, stream.width = image.shape[:2]
             picture = av.VideoFrame.from_ndarray(np.ascontiguousarray(image), format="rgb24")
@@ -58,4 +58,4 @@ def _encode(path: Path, frames: Iterable[NDArray[np.uint8]], fps: int) -> int:
 def read_frames(path: Path) -> list[NDArray[np.uint8]]:
     """Every frame of a clip as RGB, shape (height, width, 3)."""
     with av.open(str(path)) as file:
-        return [frame.to_ndarray(format="rgb24") for frame in file.decode(video=0)]
+        return [np.asarray(frame.to_ndarray(format="rgb24"), np.uint8) for frame in file.decode(video=0)]

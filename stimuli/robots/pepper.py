@@ -69,7 +69,9 @@ def build() -> mujoco.MjSpec:
     facts = read_facts(FACTS)
     spec = skeleton("pepper", facts)
     for name, rgb, specular, shininess, emission in MATERIALS:
-        spec.add_material(name=name, rgba=[*rgb, 1], specular=specular, shininess=shininess, emission=emission)
+        spec.add_material(
+            name=name, rgba=[*rgb, 1], specular=specular, shininess=shininess, emission=emission
+        )
     dress(spec, "Tibia", **base())
     dress(spec, "Pelvis", **pelvis())
     dress(spec, "Hip", **waist())
@@ -236,7 +238,9 @@ def head(eyes: Mapping[str, float]) -> dict[str, Mesh]:
     socket = ring(0.0236, 0.0032, 26, 4).facing(normal, point + 0.0002 * normal)
     iris = ring(0.0206, 0.0027, 26, 4).facing(normal, point + 0.0014 * normal)
     pupil = dome(0.0198, 0.0052, 22).facing(normal, point + 0.0010 * normal)
-    glint = dome(0.0038, 0.0010, 10, 3).facing(normal, point + 0.0052 * normal + np.array([0, 0.0062, 0.0070]))
+    glint = dome(0.0038, 0.0010, 10, 3).facing(
+        normal, point + 0.0052 * normal + np.array([0, 0.0062, 0.0070])
+    )
     ear = lathe([(0.036, -0.012), (0.0365, 0.003), (0.0345, 0.0082), (0.030, 0.0098), (0.012, 0.0105)], 24)
     cover = dome(0.0215, 0.0035, 20, 3).moved((0, 0, 0.0088))
     glow = ring(0.0262, 0.0024, 22, 4).moved((0, 0, 0.0098))
@@ -278,7 +282,12 @@ def dress_arm(spec: mujoco.MjSpec, side: str) -> None:
 
     dress(spec, f"{side}Shoulder", joint=ball(0.0395, 14))
     upper = tube(
-        *((-0.0415, 0.008, 0.008), (-0.039, 0.019, 0.019), (-0.030, 0.0325, 0.0325), (-0.014, 0.0415, 0.0415)),
+        *(
+            (-0.0415, 0.008, 0.008),
+            (-0.039, 0.019, 0.019),
+            (-0.030, 0.0325, 0.0325),
+            (-0.014, 0.0415, 0.0415),
+        ),
         *((0.010, 0.0437, 0.0437), (0.040, 0.0428, 0.0432), (0.080, 0.0397, 0.0405), (0.120, 0.0368, 0.0378)),
         *((0.152, 0.0350, 0.0358), (0.162, 0.0335, 0.0340), (0.1655, 0.0290, 0.0295)),
         rings=12,
@@ -295,7 +304,12 @@ def dress_arm(spec: mujoco.MjSpec, side: str) -> None:
     band = tube((0.080, 0.0275, 0.0285), (0.100, 0.0275, 0.0285), rings=2, segments=18)
     dress(spec, f"{side}ForeArm", shell=lower, joint=band)
     cuff = tube(
-        *((-0.0605, 0.0275, 0.0285), (-0.058, 0.0320, 0.0330), (-0.050, 0.0330, 0.0342), (-0.020, 0.0322, 0.0360)),
+        *(
+            (-0.0605, 0.0275, 0.0285),
+            (-0.058, 0.0320, 0.0330),
+            (-0.050, 0.0330, 0.0342),
+            (-0.020, 0.0322, 0.0360),
+        ),
         *((0.005, 0.0312, 0.0385), (0.022, 0.0300, 0.0395), (0.0275, 0.0275, 0.0370), (0.0285, 0.022, 0.033)),
         rings=10,
         segments=22,
@@ -324,8 +338,8 @@ def add_fingers(spec: mujoco.MjSpec, side: str, fingers: Mapping[str, Mapping[st
         rpy = facts["rpy"] * turned if first else (0, 0, fingers["fold"] * mirror[1])
         link = add_link(spec, parent, name, xyz=tuple(xyz), rpy=tuple(rpy))
         link.add_joint(name=name, axis=[0, 0, mirror[1]], range=[0, fingers["curl"]], limited=True)
-        thickness = (0.0086 if finger == "Thumb" else 0.0080) - 0.0006 * np.array([k - 1, k])
-        dress(spec, name, trim=capsule(facts["length"], *thickness, 7))
+        start, end = (0.0086 if finger == "Thumb" else 0.0080) - 0.0006 * np.array([k - 1, k])
+        dress(spec, name, trim=capsule(facts["length"], start, end, 7))
 
 
 def _phalanges(side: str, fingers: Mapping[str, object]) -> list[str]:

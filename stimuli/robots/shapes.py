@@ -32,7 +32,8 @@ class Mesh:
 
     def __add__(self, other: Mesh) -> Mesh:
         return Mesh(
-            np.vstack([self.vertices, other.vertices]), np.vstack([self.faces, other.faces + len(self.vertices)])
+            np.vstack([self.vertices, other.vertices]),
+            np.vstack([self.faces, other.faces + len(self.vertices)]),
         )
 
     def moved(self, xyz: Sequence[float] | FloatArray = (0, 0, 0), rpy: Sequence[float] = (0, 0, 0)) -> Mesh:
@@ -118,7 +119,7 @@ class Loft:
         return _tube(grid) + _fan(grid[-1]) + _fan(grid[0, ::-1])
 
     def pad(self, centre: tuple[float, float], size: tuple[float, float], lift: float, segments: int) -> Mesh:
-        """A rounded plate of half sizes (x, y) lying on the top, around (x, y), lifted off it in the middle."""
+        """A rounded plate of half sizes (x, y) lying on the top, its middle lifted off it."""
         angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
         c, s = np.cos(angle), np.sin(angle)
         outline = np.stack([np.sign(c) * np.sqrt(np.abs(c)), np.sign(s) * np.sqrt(np.abs(s))], axis=-1) * size
@@ -132,14 +133,20 @@ class Loft:
         grid, values = self._table
         centre, front, back, half, exponent = values[250:].T[:, :, None]
         x, y = xy.reshape(-1, 2).T
-        level = (np.abs(x - centre) / np.where(x > centre, front, back)) ** exponent + (np.abs(y) / half) ** exponent
-        columns = [np.interp(1.0, column, grid[250:]) for column in level.T]  # 1 on the surface, growing upwards
+        level = (np.abs(x - centre) / np.where(x > centre, front, back)) ** exponent + (
+            np.abs(y) / half
+        ) ** exponent
+        columns = [
+            np.interp(1.0, column, grid[250:]) for column in level.T
+        ]  # 1 on the surface, growing upwards
         return np.reshape(columns, xy.shape[:-1])
 
     def seam(self, path: Sequence[tuple[float, float]], width: float, lift: float = 0.0006) -> Mesh:
         """A narrow band along a path of (angle, z) on the surface."""
         rows = np.array(path, float)
-        along = PchipInterpolator(np.linspace(0, 1, len(rows)), rows, axis=0)(np.linspace(0, 1, 8 * len(rows)))
+        along = PchipInterpolator(np.linspace(0, 1, len(rows)), rows, axis=0)(
+            np.linspace(0, 1, 8 * len(rows))
+        )
         middle = self.points(along[:, 0], along[:, 1])  # (k, 3)
         h = 1e-4
         around = self.points(along[:, 0] + h, along[:, 1]) - self.points(along[:, 0] - h, along[:, 1])
@@ -154,13 +161,10 @@ def lathe(profile: Sequence[tuple[float, float]], segments: int) -> Mesh:
     """The surface of revolution about z of a profile of (radius, z), from bottom to top for an outside."""
     angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
     rows = np.array(profile, float)[:, None, :]
-    grid = np.stack([rows[..., 0] * np.cos(angle), rows[..., 0] * np.sin(angle), rows[..., 1] + 0 * angle], axis=-1)
+    grid = np.stack(
+        [rows[..., 0] * np.cos(angle), rows[..., 0] * np.sin(angle), rows[..., 1] + 0 * angle], axis=-1
+    )
     return _tube(grid)
-
-
-def creased(profile: Sequence[tuple[float, float]], segments: int) -> Mesh:
-    """A lathed surface whose every edge is sharp."""
-    return joined(*(lathe(pair, segments) for pair in zip(profile, profile[1:], strict=False)))
 
 
 def ring(radius: float, thickness: float, segments: int, sides: int = 8) -> Mesh:

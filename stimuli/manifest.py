@@ -1,0 +1,87 @@
+"""The list beside the clips: for each stimulus its file, its whole specification, and what made it."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from stimuli.errors import InputError
+
+FILE = "manifest.json"
+
+
+class Clip(BaseModel):
+    """One rendered stimulus."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    file: str
+    file_sha256: str
+    spec: Mapping[str, Any]  # the stimulus' specification, no parameter left to a default
+    spec_sha256: str
+    frames: int
+    fps: int
+    duration_s: float  # frames / fps
+    width: int
+    height: int
+    size_bytes: int
+    descriptors: Mapping[str, float] = Field(default_factory=dict)
+    margins: Mapping[str, Any] = Field(
+        default_factory=dict
+    )  # how far the motion stays from the robot's limits
+    software: Mapping[str, str]
+    gl_renderer: str
+
+
+class Framing(BaseModel):
+    """The camera chosen for a set of stimuli that left it to us."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    stimuli_sha256: str
+    camera: str
+
+
+class Manifest(BaseModel):
+    """All clips of a folder, by stimulus."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    stimuli: Mapping[str, Clip] = Field(default_factory=dict)
+    framing: Framing | None = None
+
+    @property
+    def clips(self) -> Mapping[str, Clip]:
+        """The clips by stimulus id."""
+        return self.stimuli
+
+    @classmethod
+    def load(cls, folder: Path) -> Self:
+        """Read a folder's manifest; a folder without one has no clips yet."""
+        path = folder / FILE
+        try:
+            return cls.model_validate_json(path.read_bytes())
+        except FileNotFoundError:
+            return cls()
+        except ValidationError as error:
+            raise InputError(
+                f"{path}: this is not a manifest of clips ({error.errors()[0]['msg']}). "
+                "Delete it and render again; clips that are there and whole are not drawn twice."
+            ) from error
+
+    def save(self, folder: Path) -> None:
+        """Write the manifest in one step."""
+        partial = folder / f".{FILE}.{os.getpid()}.part"
+        partial.write_text(self.model_dump_json(indent=1) + "\n", encoding="utf-8")
+        partial.replace(folder / FILE)
+
+
+def sha256_of(path: Path) -> str:
+    """Hash of a file's bytes."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
