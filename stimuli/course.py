@@ -15,10 +15,24 @@ import numpy as np
 from stimuli.robots.model import Relation, Robot
 from stimuli.trajectory import FloatArray
 
-Curve = Callable[[FloatArray], FloatArray]
-"""A strictly increasing map of [0, 1] onto itself."""
-
 Scheme = Literal["foh", "zoh", "semi"]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """An increasing map of [0, 1] onto itself: how much is gone by at a share of time."""
+
+    gone: Callable[[FloatArray], FloatArray]
+    slope: Callable[[FloatArray], FloatArray]
+
+    def after(self, first: Curve | None) -> Curve:
+        """The curve that applies `first`, then this."""
+        if first is None:
+            return self
+        return Curve(
+            lambda share: self.gone(first.gone(share)),
+            lambda share: self.slope(first.gone(share)) * first.slope(share),
+        )
 
 
 @dataclass(frozen=True)
@@ -56,11 +70,12 @@ class Course:
     )
 
     former_goal: FloatArray | None = None  # (d,) goal before a goal that glides …
-    goal_lag_s: float = 0.0  # … with this time constant; 0: at once
+    goal_lag_s: float = 0.0  # … with this time constant; 0: at once …
+    goal_since: float = 0.0  # … from this share of time on
 
     @property
     def rate(self) -> float:
-        """Undamped natural frequency of the spring in shares of time, alpha / 2: both its poles are at -rate."""
+        """alpha / 2, in shares of time: both poles of the spring are at -rate."""
         return self.alpha / 2
 
     @property
@@ -68,6 +83,12 @@ class Course:
         """`dragged`, zero where there is none."""
         d = len(self.joints)
         return np.zeros((d, d)) if self.dragged is None else self.dragged
+
+    @property
+    def carrying(self) -> FloatArray:
+        """`carried`, zero where there is none."""
+        d = len(self.joints)
+        return np.zeros((d, d)) if self.carried is None else self.carried
 
     @property
     def displaced(self) -> FloatArray:
@@ -91,11 +112,3 @@ class Course:
             row, column = self.joints.index(relation.target), self.joints.index(relation.source)
             matrix[row, column] = relation.sign * strength
         return matrix
-
-
-def after(outer: Curve, inner: Curve | None) -> Curve:
-    """The curve that applies `inner` first, then `outer`."""
-    if inner is None:
-        return outer
-    first = inner
-    return lambda share: outer(first(share))

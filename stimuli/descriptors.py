@@ -12,11 +12,11 @@ STILL = 0.01  # of a joint's range: joints that move less are not counted as mov
 
 
 def describe(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
-    """Descriptors of a motion. Positions count as shares of each joint's range, so that radians and hands compare.
+    """Descriptors of a motion; positions count as shares of each joint's range, so that all joints compare.
 
     `duration_s`; `joints_moving`; `amplitude`: mean peak-to-peak share of range over moving joints;
-    `speed_mean`, `speed_peak` (1/s), `acceleration_peak` (1/s²), `jerk_rms` (1/s³): of the moving joints together, as
-    Euclidean norms; `path_length`; `log_dimensionless_jerk` (Hogan & Sternad 2009) and `sparc`
+    `speed_mean`, `speed_peak` (1/s), `acceleration_peak` (1/s²), `jerk_rms` (1/s³): of the moving joints
+    together, as Euclidean norms; `path_length`; `log_dimensionless_jerk` (Hogan & Sternad 2009) and `sparc`
     (Balasubramanian et al. 2015), both of that speed, nearer to 0 is smoother.
     """
     ranges = np.array([robot.joint(name).range for name in trajectory.joints])
@@ -53,8 +53,8 @@ def log_dimensionless_jerk(speed: FloatArray, jerk: FloatArray, dt: float) -> fl
 def sparc(speed: FloatArray, dt: float, cutoff_hz: float = 10.0, threshold: float = 0.05) -> float:
     """Spectral arc length of a speed profile (Balasubramanian et al. 2015, J. NeuroEng. Rehabil. 12:112).
 
-    Minus the length of the normalised amplitude spectrum up to the last frequency, at most the cutoff, at which
-    it exceeds the threshold; frequencies count as shares of that one. The profile is padded 16-fold.
+    Minus the length of the normalised amplitude spectrum up to the last frequency, at most the cutoff, at
+    which it exceeds the threshold; frequencies count as shares of that one. The profile is padded 16-fold.
     """
     n = 2 ** (int(np.ceil(np.log2(len(speed)))) + 4)
     frequencies = np.fft.rfftfreq(n, dt)
@@ -67,7 +67,7 @@ def sparc(speed: FloatArray, dt: float, cutoff_hz: float = 10.0, threshold: floa
 
 
 def _extents(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
-    """How far the hands get, in m, from the lowest to the highest and from left to right, and away from the body."""
+    """How far the hands get, in m: left to right, up and down, forth and back, and off the robot's axis."""
     if not robot.hands:
         return {}
     positions = {name: trajectory.joint(name) for name in trajectory.joints}

@@ -4,9 +4,10 @@ Notation, after Ijspeert et al. (2013) and Hielscher et al. (2025):
 
     tau^2 y'' = alpha (beta (g - y) - tau y') + f(x),    alpha = 4 beta
 
-y position, g goal, tau duration (s), x phase, f(x) = x (sum_i w_i psi_i(x)) / (sum_i psi_i(x)) forcing term with
-weights w. The phase falls evenly from 1 to 0 during tau and stays 0, so the forcing term is gone by then and the
-spring comes to rest at the goal. With time in shares of the duration, s = t / tau, and rate = alpha / 2 this reads
+y position, g goal, tau duration (s), x phase, f(x) = x (sum_i w_i psi_i(x)) / (sum_i psi_i(x)) forcing term
+with weights w. The phase falls evenly from 1 to 0 during tau and stays 0, so the forcing term is gone by then
+and the spring comes to rest at the goal. With time in shares of the duration, s = t / tau, and rate = alpha /
+2 this reads
 
     y'' = rate^2 (u - y) - 2 rate y',    u = g + f(x) / rate^2
 
@@ -22,12 +23,13 @@ from typing import Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from stimuli.attractor import basis
 from stimuli.course import Course, Scheme
 from stimuli.errors import InputError
 from stimuli.principles import Modulation
 from stimuli.relations import relations_of
 from stimuli.robots.model import Robot
-from stimuli.rollout import basis, roll_out
+from stimuli.rollout import roll_out
 from stimuli.spring import respond, step_of
 from stimuli.trajectory import FloatArray, Trajectory
 
@@ -129,7 +131,7 @@ def _ridge(offsets: FloatArray, learning: Learning) -> FloatArray:
 
 
 def _locally_weighted(offsets: FloatArray, learning: Learning) -> FloatArray:
-    """Weights (n_weights, d) each fitted by itself to the forcing term near its centre (Schaal & Atkeson 1998).
+    """Weights (n_weights, d), each fitted by itself to the forcing term near its centre (Schaal 1998).
 
     w_i = sum_k psi_i(x_k) x_k f_k / sum_k psi_i(x_k) x_k^2. Velocities are those the scheme goes by: backward
     differences for `semi`, else central ones; the motion is taken to rest before and after.

@@ -24,7 +24,8 @@ class Violation:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.joint} at {self.time_s:.2f} s: {self.quantity} {self.value:.4g} {self.unit}, limit {self.limit:.4g}"
+        excess = f"{self.quantity} {self.value:.4g} {self.unit}, limit {self.limit:.4g}"
+        return f"{self.joint} at {self.time_s:.2f} s: {excess}"
 
 
 def violations(trajectory: Trajectory, robot: Robot) -> list[Violation]:
@@ -60,7 +61,7 @@ def _both_ways(limit: float | None) -> tuple[float, float, float]:
 
 
 def margins(trajectory: Trajectory, robot: Robot) -> dict[str, dict[str, float]]:
-    """What is left, per joint: of the range in the joint's unit, and of the velocity as a share of its limit."""
+    """What is left, per joint: of the range in the joint's unit, of the velocity as a share of its limit."""
     left = {}
     for name in trajectory.joints:
         joint, y = robot.joint(name), trajectory.joint(name)

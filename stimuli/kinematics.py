@@ -36,7 +36,7 @@ def link_poses(robot: Robot, positions: Mapping[str, float | FloatArray]) -> dic
 
 
 def axes(robot: Robot, positions: Mapping[str, float]) -> dict[str, FloatArray]:
-    """Direction (3,) of each joint's axis in the frame of the robot's root; dimensionless joints have none."""
+    """Direction (3,) of each joint's axis in the frame of the robot's root; dimensionless ones have none."""
     poses = link_poses(robot, positions)
     return {
         joint.name: (poses.get(joint.parent, np.eye(4)) @ placed(joint))[:3, :3] @ np.array(joint.axis)

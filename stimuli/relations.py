@@ -1,8 +1,8 @@
 """Which joints drive which, for Secondary Action and Follow Through, from the robot's kinematic tree.
 
-A target hangs below its source in the same kinematic chain, and their axes are nearly parallel at the home pose
-(Hielscher et al. 2025, section III-B). Of several sources the nearest in the chain is taken. delta is 1 where
-the axes point the same way and -1 where they are opposed. A robot file may give its relations instead.
+A target hangs below its source in the same kinematic chain, and their axes are nearly parallel at the home
+pose (Hielscher et al. 2025, section III-B). Of several sources the nearest in the chain is taken. delta is 1
+where the axes point the same way and -1 where they are opposed. A robot file may give its relations instead.
 """
 
 from __future__ import annotations

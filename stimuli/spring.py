@@ -2,11 +2,13 @@
 
     y'' = gain (rate^2 (u - y) - 2 rate y')
 
-With gain 1 it is critically damped, both poles at -rate; other gains come from Anticipation. A step leads from
-the state (y, y') to `across @ state + before * u_0 + after * u_1`, the attractor u being u_0 before and u_1 after it.
+With gain 1 it is critically damped, both poles at -rate; other gains come from Anticipation. A step leads
+from the state (y, y') to `across @ state + before * u_0 + after * u_1`, the attractor u being u_0 before and
+u_1 after it.
 
-`foh` is exact for an attractor that is linear between samples, `zoh` for one that is held; both are stable at any
-step. `semi` is semi-implicit Euler, as in the program of the paper's authors, and refused where it is unstable.
+`foh` is exact for an attractor that is linear between samples, `zoh` for one that is held; both are stable at
+any step. `semi` is semi-implicit Euler, as in the program of the paper's authors, and refused where it is
+unstable.
 """
 
 from __future__ import annotations
@@ -71,10 +73,10 @@ def _semi_implicit(rate: float, h: float, gain: float) -> Step:
 
 
 def respond(chased: FloatArray, state: FloatArray, step: Step) -> FloatArray:
-    """Motion (2, n + 1, m), positions and velocities, of m springs that chase `chased` (n + 1, m) from `state` (2, m).
+    """Motion (2, n + 1, m), positions and velocities, of springs chasing `chased` (n + 1, m) from `state`.
 
-    The recursion x_{k+1} = A x_k + b_k as one filter for positions and velocities alike: by Cayley and Hamilton
-    x_{k+2} = tr(A) x_{k+1} - det(A) x_k + b_{k+1} + (A - tr(A)) b_k.
+    The recursion x_{k+1} = A x_k + b_k as one filter for positions and velocities alike: by Cayley and
+    Hamilton x_{k+2} = tr(A) x_{k+1} - det(A) x_k + b_{k+1} + (A - tr(A)) b_k.
     """
     (a, b), (c, d) = step.across
     driven = (

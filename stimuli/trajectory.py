@@ -26,8 +26,8 @@ class Trajectory:
     def __post_init__(self) -> None:
         if self.positions.shape != (len(self.times), len(self.joints)):
             raise ValueError(
-                f"positions have shape {self.positions.shape}; "
-                f"{len(self.times)} times and {len(self.joints)} joints need ({len(self.times)}, {len(self.joints)})"
+                f"positions have shape {self.positions.shape}; {len(self.times)} times and "
+                f"{len(self.joints)} joints need ({len(self.times)}, {len(self.joints)})"
             )
 
     @property
@@ -47,7 +47,7 @@ class Trajectory:
         return np.stack([np.interp(times, self.times, column) for column in self.positions.T], axis=1)
 
     def resampled(self, dt_s: float) -> Trajectory:
-        """The same motion from its start to its end in steps as near to dt_s as fit evenly; itself where they do.
+        """The same motion in even steps as near to dt_s as fit; itself where they do already.
 
         Between samples by monotone cubics (PCHIP), which never leave the range of the samples.
         """

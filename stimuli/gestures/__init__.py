@@ -1,7 +1,7 @@
 """Demonstrations from files: one reader per format, this folder is the list.
 
-A reader is a module with `SUFFIXES` and `read(path, robot, dt_s) -> Trajectory`. Every reader returns all joints
-of the robot, those the file does not name at home.
+A reader is a module with `SUFFIXES` and `read(path, robot, dt_s) -> Trajectory`. Every reader returns all
+joints of the robot, those the file does not name at home.
 """
 
 from __future__ import annotations

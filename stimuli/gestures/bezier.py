@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -24,12 +25,12 @@ class Key:
 def sample(keys: list[Key], times: FloatArray) -> FloatArray:
     """Values of the curve at these times, (n,); held before the first key and after the last.
 
-    Each piece is the cubic Bezier curve in time and value through two keys and their handles. Handles that reach
-    beyond the other key are shortened, in proportion, so that time never runs backwards.
+    Each piece is the cubic Bezier curve in time and value through two keys and their handles. Handles that
+    reach beyond the other key are shortened, in proportion, so that time never runs backwards.
     """
     keys = sorted(keys, key=lambda key: key.time_s)
     values = np.where(times < keys[0].time_s, keys[0].value, keys[-1].value)
-    for start, end in zip(keys, keys[1:], strict=False):
+    for start, end in pairwise(keys):
         inside = (times >= start.time_s) & (times <= end.time_s)
         if end.time_s > start.time_s and inside.any():
             values[inside] = _piece(start, end, times[inside])

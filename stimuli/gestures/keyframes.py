@@ -8,9 +8,9 @@
     joints:                    # joints not named stay at home; "home" is the home value
       RShoulderPitch: {0.0: home, 0.7: -40, 2.6: -38, 3.6: home}     # time in s: value
 
-Between keys a joint moves by a quintic with the velocities of a shape-preserving cubic (PCHIP) and no acceleration
-at the keys: twice continuously differentiable, at rest at both ends, and standing still between equal keys. Before
-its first key and after its last a joint holds still.
+Between keys a joint moves by a quintic with the velocities of a shape-preserving cubic (PCHIP) and no
+acceleration at the keys: twice continuously differentiable, at rest at both ends, and standing still between
+equal keys. Before its first key and after its last a joint holds still.
 """
 
 from __future__ import annotations
@@ -67,42 +67,43 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     moving = {}
     for name, keys in frames.joints.items():
         place = f"{path}:{_line(tree, ('joints', name))}"
-        joint = known_joint(name, robot, place)
-        moving[name] = _motion(keys, joint, robot.home[name], frames, times, f"{place}: joints.{name}")
+        joint, home = known_joint(name, robot, place), robot.home[name]
+        moments = np.array(sorted(keys))
+        values = np.array(
+            [
+                home if (key := keys[float(at)]) == "home" else in_joint_unit(key, frames.unit, joint)
+                for at in moments
+            ]
+        )
+        _check(moments, values, frames, joint, f"{place}: joints.{name}")
+        moving[name] = between_keys(moments, values, times)
     return whole_body(times, moving, robot)
 
 
-def _motion(
-    keys: dict[float, float | Literal["home"]],
-    joint: Joint,
-    home: float,
-    frames: Keyframes,
-    times: FloatArray,
-    place: str,
-) -> FloatArray:
-    moments = np.array(sorted(keys))
-    if moments[0] < 0 or moments[-1] > frames.duration:
-        late = moments[0] if moments[0] < 0 else moments[-1]
-        raise InputError(
-            f"{place}: a key at {late:g} s; keys lie from 0 to the duration, {frames.duration:g} s"
-        )
-    written = [keys[float(moment)] for moment in moments]
-    values = np.array([home if key == "home" else in_joint_unit(key, frames.unit, joint) for key in written])
-    outside = (values < joint.lower) | (values > joint.upper)
-    if outside.any():
-        first = int(np.argmax(outside))
-        limits = np.array([joint.lower, joint.upper])
-        unit = frames.unit if joint.kind == "revolute" else joint.unit
-        low, high = np.degrees(limits) if unit == "deg" else limits
-        raise InputError(
-            f"{place}: {written[first]} at {moments[first]:g} s is outside the joint's range, {low:.4g} to {high:.4g} {unit}"
-        )
+def between_keys(moments: FloatArray, values: FloatArray, times: FloatArray) -> FloatArray:
+    """Positions at these times, (n,), of a motion through keys as the module describes it."""
     if len(moments) == 1:
         return np.full(len(times), values[0])
     velocities = np.zeros(len(moments))
     velocities[1:-1] = PchipInterpolator(moments, values).derivative()(moments[1:-1])
-    quintics = BPoly.from_derivatives(moments, [[y, v, 0.0] for y, v in zip(values, velocities, strict=True)])
+    quintics = BPoly.from_derivatives(moments, np.stack([values, velocities, np.zeros(len(moments))], axis=1))
     return np.asarray(quintics(np.clip(times, moments[0], moments[-1])), dtype=np.float64)
+
+
+def _check(moments: FloatArray, values: FloatArray, frames: Keyframes, joint: Joint, place: str) -> None:
+    """InputError where a key lies outside the gesture or the joint's range."""
+    for moment in moments[(moments < 0) | (moments > frames.duration)]:
+        raise InputError(
+            f"{place}: a key at {moment:g} s; keys lie from 0 to the duration, {frames.duration:g} s"
+        )
+    in_degrees = joint.kind == "revolute" and frames.unit == "deg"
+    scale, unit = (np.degrees(1.0), "deg") if in_degrees else (1.0, joint.unit)
+    for moment, value in zip(moments, values, strict=True):
+        if not joint.lower <= value <= joint.upper:
+            raise InputError(
+                f"{place}: {value * scale:.4g} at {moment:g} s is outside the joint's range, "
+                f"{joint.lower * scale:.4g} to {joint.upper * scale:.4g} {unit}"
+            )
 
 
 def _line(node: yaml.Node | None, location: tuple[Any, ...]) -> int:

@@ -1,8 +1,9 @@
 """Animations of Pepper's makers (`.qianim`): XML, one Bezier curve of keys per joint.
 
-Times count frames at the curve's own rate; a `Tangent` is the offset of a handle from its key. Attributes of the
-editor, in whichever namespace, are not needed. Time begins at the earliest key of all, where the robot would have
-gone from wherever it stood; a joint whose own first key comes later holds that key's value until then.
+Times count frames at the curve's own rate; a `Tangent` is the offset of a handle from its key. Attributes of
+the editor, in whichever namespace, are not needed. Time begins at the earliest key of all, where the robot
+would have gone from wherever it stood; a joint whose own first key comes later holds that key's value until
+then.
 """
 
 from __future__ import annotations

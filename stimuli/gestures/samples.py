@@ -1,7 +1,8 @@
-"""Recorded gestures: CSV with a header `time` and joint names, one row per sample, in s and the joints' units.
+"""Recorded gestures: CSV with a header of `time` and joints, one row per sample, in s and the joints' units.
 
-Samples may be uneven, unsorted and repeated: they are sorted, those with the same time averaged, and joined by
-monotone cubics (PCHIP), which never leave the range of the samples. A header may say a joint's unit, `HeadYaw [deg]`.
+Samples may be uneven, unsorted and repeated: they are sorted, those with the same time averaged, and joined
+by monotone cubics (PCHIP), which never leave the range of the samples. A header may say a joint's unit,
+`HeadYaw [deg]`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Animation principles as modulations of a movement primitive: one file each, this folder is the list.
 
-A protocol names them by `kind`: `{time: 0.85, exa: 1.3, ant: {intensity: 0.3, window: 0.075}}`. A bare number is
-the principle's intensity. What is not named is neutral, and neutral changes nothing, bit for bit.
+A protocol names them by `kind`: `{time: 0.85, exa: 1.3, ant: {intensity: 0.3, window: 0.075}}`. A bare number
+is the principle's intensity. What is not named is neutral, and neutral changes nothing, bit for bit.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def in_order(principles: Iterable[Principle]) -> tuple[Principle, ...]:
 
 
 def _principle(kind: object, parameters: object) -> Principle:
-    """One principle from what a protocol says of it; ValueError names kind, field, value and what would do."""
+    """One principle from its parameters; ValueError names kind, field, value and what would do."""
     if kind not in PRINCIPLES:
         raise ValueError(f"{kind!r} is not a principle{_nearest(kind, PRINCIPLES)}")
     made = PRINCIPLES[str(kind)]

@@ -19,12 +19,12 @@ LARGEST_GROWTH = 100.0
 class Ant(Principle):
     """Invert the acceleration of the most important joints at the start of the motion.
 
-    `form: literal`, as in the paper: y'' becomes -p y'' while t / tau < window. Inside the window the spring is
-    unstable, so the dip grows as exp[(alpha / 2) (p + sqrt(p^2 + p)) window]; beyond a factor of 100 it is
+    `form: literal`, as in the paper: y'' becomes -p y'' while t / tau < window. Inside the window the spring
+    is unstable, so the dip grows as exp[(alpha / 2) (p + sqrt(p^2 + p)) window]; beyond a factor of 100 it is
     refused. Near p = 0 the joint stands still for the window; p = 0 itself means no anticipation.
 
-    `form: mirror`: in the window the joint moves as y0 - p (y - y0), y being what it would have done. The dip is
-    proportional to p and cannot run away.
+    `form: mirror`: in the window the joint moves as y0 - p (y - y0), y being what it would have done. The dip
+    is proportional to p and cannot run away.
 
     Importance is the demonstrated peak-to-peak motion as a share of the joint's range, so that radians and
     hands compare; `joints` names them instead.
@@ -48,10 +48,9 @@ class Ant(Principle):
             return replace(course, window=self.window, mirror=factor)
         if self.growth(course.alpha) > LARGEST_GROWTH:
             raise InputError(
-                f"ant.intensity: {self.intensity:g} in a window of {self.window:g} makes the motion grow "
-                f"{self.growth(course.alpha):.3g}-fold before it starts; at most {LARGEST_GROWTH:g}-fold is allowed, "
-                f"that is intensity {self.largest_intensity(course.alpha):.3g}. "
-                "Take less, a shorter window, or form: mirror"
+                f"ant.intensity: {self.intensity:g} in a window of {self.window:g} makes the motion "
+                f"grow {self.growth(course.alpha):.3g}-fold before it starts, {LARGEST_GROWTH:g}-fold being the limit. "
+                f"Take at most {self.largest_intensity(course.alpha):.3g}, a shorter window, or form: mirror"
             )
         return replace(course, window=self.window, gain=factor)
 

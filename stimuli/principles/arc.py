@@ -16,8 +16,8 @@ from stimuli.principles.principle import Principle, Stage
 class Arc(Principle):
     """Smooth the weights (p > 0) or sharpen them by unsharp masking (p < 0).
 
-    w' = G(p) * w for p > 0, and w' = w + (w - G(-p) * w) for p < 0, G(sigma) a Gaussian filter along the weights
-    of each joint, reflected at the ends, cut off at four sigma.
+    w' = G(p) * w for p > 0, and w' = w + (w - G(-p) * w) for p < 0, G(sigma) a Gaussian filter along the
+    weights of each joint, reflected at the ends, cut off at four sigma.
 
     With `unit: weights`, as in the paper, sigma counts weights, so what an intensity does depends on how many
     there are. With `unit: duration` sigma is a share of the motion's duration, whatever their number: 0.1 of

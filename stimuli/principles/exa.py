@@ -14,10 +14,10 @@ from stimuli.principles.principle import Principle, Stage
 class Exa(Principle):
     """Scale the forcing term: f' = p f.
 
-    `around: goal`, as in the paper, scales what distinguishes the motion from an unforced spring, which leaves
-    for the goal at once and fast. Where start and goal agree, that is the motion's own shape; on a reach, p > 1
-    makes it set out backwards and p < 1 makes it faster. `around: straight` scales what distinguishes it from a
-    minimum-jerk reach instead, so that a straight reach stays as it is.
+    `around: goal`, as in the paper, scales what distinguishes the motion from an unforced spring, which
+    leaves for the goal at once and fast. Where start and goal agree, that is the motion's own shape; on a
+    reach, p > 1 makes it set out backwards and p < 1 makes it faster. `around: straight` scales what
+    distinguishes it from a minimum-jerk reach instead, so that a straight reach stays as it is.
     """
 
     kind: ClassVar[str] = "exa"

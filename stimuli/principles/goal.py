@@ -28,7 +28,7 @@ class Goal(Principle):
     neutral: ClassVar[float] = 0.0
 
     intensity: float = Field(1.0, ge=0, le=1)  # share of the way from the demonstrated goal to the new one
-    joints: dict[str, float] = {}
+    joints: dict[str, float] = Field(default_factory=dict)
     lag_s: float = Field(0.0, ge=0, le=60)
 
     @model_validator(mode="before")

@@ -25,8 +25,8 @@ class Stage(IntEnum):
 class Principle(BaseModel):
     """One animation principle with its parameters: a function from course to course.
 
-    A kind has a short name for protocols (`kind`), a `title`, a `stage`, and a `neutral` intensity at which it
-    changes nothing, bit for bit.
+    A kind has a short name for protocols (`kind`), a `title`, a `stage`, and a `neutral` intensity at which
+    it changes nothing, bit for bit.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)

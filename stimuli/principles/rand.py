@@ -16,9 +16,9 @@ from stimuli.principles.principle import Principle, Stage
 class Rand(Principle):
     """Add coloured noise around the motion: w' = w + (1 + mean |w|) p eps, eps standard normal.
 
-    Each joint draws from a stream of its own, made from the seed and the joint's name: the same seed gives the
-    same motion, and a joint's noise does not depend on which other joints move. Acts on the weights as Arc
-    left them. Weights are in the joint's unit, so the paper's "1 +" weighs more the smaller the motion.
+    Each joint draws from a stream of its own, made from the seed and the joint's name: the same seed gives
+    the same motion, and a joint's noise does not depend on which other joints move. Acts on the weights as
+    Arc left them. Weights are in the joint's unit, so the paper's "1 +" weighs more the smaller the motion.
     """
 
     kind: ClassVar[str] = "rand"

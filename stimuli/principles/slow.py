@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from stimuli.course import Course, after
+from stimuli.course import Course, Curve
 from stimuli.principles.principle import Principle, Stage
 from stimuli.trajectory import FloatArray
 
@@ -16,10 +16,11 @@ from stimuli.trajectory import FloatArray
 class Slow(Principle):
     """Let the motion progress along a sigmoid instead of evenly: progress(s) = (1 - p) s + p sigmoid(s).
 
-    The sigmoid is logistic with the given `steepness`, shifted and scaled to run exactly from (0, 0) to (1, 1).
+    The sigmoid is logistic with the given `steepness`, shifted and scaled to run exactly from (0, 0) to (1,
+    1).
 
-    `form: phase`, as in the paper, bends the phase alone. The spring still leaves at once for where the forcing
-    term holds it, so the start is little slower than before. `form: retime` runs the whole motion by
+    `form: phase`, as in the paper, bends the phase alone. The spring still leaves at once for where the
+    forcing term holds it, so the start is little slower than before. `form: retime` runs the whole motion by
     the bent clock, and so slows both ends exactly as drawn.
     """
 
@@ -34,10 +35,20 @@ class Slow(Principle):
     def modulate(self, course: Course) -> Course:
         """Bend the phase or the clock."""
         if self.form == "phase":
-            return replace(course, progress=after(self.curve, course.progress))
-        return replace(course, clock=after(self.curve, course.clock))
+            return replace(course, progress=self.curve().after(course.progress))
+        return replace(course, clock=self.curve().after(course.clock))
 
-    def curve(self, share: FloatArray) -> FloatArray:
+    def curve(self) -> Curve:
         """Share of the motion gone by at a share of time."""
-        sigmoid = 0.5 + 0.5 * np.tanh(self.steepness / 2 * (share - 0.5)) / np.tanh(self.steepness / 4)
-        return (1 - self.intensity) * share + self.intensity * sigmoid
+        p, half = self.intensity, self.steepness / 2
+        scale = 2 * np.tanh(half / 2)
+
+        def gone(share: FloatArray) -> FloatArray:
+            sigmoid: FloatArray = 0.5 + np.tanh(half * (share - 0.5)) / scale
+            return (1 - p) * share + p * sigmoid
+
+        def slope(share: FloatArray) -> FloatArray:
+            bend: FloatArray = half / scale / np.cosh(half * (share - 0.5)) ** 2
+            return (1 - p) + p * bend
+
+        return Curve(gone, slope)

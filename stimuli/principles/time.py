@@ -9,9 +9,8 @@ import numpy as np
 from pydantic import BeforeValidator, Field
 from scipy.interpolate import PchipInterpolator
 
-from stimuli.course import Course, Curve, after
+from stimuli.course import Course, Curve
 from stimuli.principles.principle import Principle, Stage
-from stimuli.trajectory import FloatArray
 
 SPEEDS = {"slow": 0.5, "even": 1.0, "fast": 1.5}
 
@@ -49,8 +48,8 @@ class Time(Principle):
             return course
         curve = sectors(self.progression)
         if self.form == "phase":
-            return replace(course, progress=after(curve, course.progress))
-        return replace(course, clock=after(curve, course.clock))
+            return replace(course, progress=curve.after(course.progress))
+        return replace(course, clock=curve.after(course.clock))
 
 
 def sectors(speeds: tuple[float, ...]) -> Curve:
@@ -58,8 +57,4 @@ def sectors(speeds: tuple[float, ...]) -> Curve:
     borders = np.linspace(0.0, 1.0, len(speeds) + 1)
     gone = np.concatenate([[0.0], np.cumsum(speeds) / np.sum(speeds)])
     spline = PchipInterpolator(borders, gone)
-
-    def curve(share: FloatArray) -> FloatArray:
-        return np.asarray(spline(share), dtype=np.float64)
-
-    return curve
+    return Curve(spline, spline.derivative())
