@@ -1,6 +1,6 @@
 """The command line: the one place where motion, sessions and analysis are put together.
 
-Every command reads as: load the protocol, call the stage, say what came out. Heavy stages are imported inside their
+Every command reads as: load the protocol, call the stage, say what came out. Stages are imported inside their
 command, so that `study --help` and `study analyse` never wait for MuJoCo.
 """
 
@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from stimuli.errors import InputError
@@ -20,20 +23,22 @@ from stimuli.errors import InputError
 if TYPE_CHECKING:
     from stimuli.manifest import Manifest
     from study.protocol import Protocol
+    from study.web import Links
 
 app = typer.Typer(
-    name="study",
-    help="Expressive robot motion studies: one protocol file to stimuli, sessions and statistics.",
+    help="Studies of expressive robot motion: from one protocol file to stimuli, sessions and statistics.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-console = Console(highlight=False)
+console = Console(highlight=False, soft_wrap=True)
 
 ProtocolPath = Annotated[Path, typer.Argument(metavar="PROTOCOL", help="Protocol folder, or its YAML file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the answer as JSON, for programs.")]
-Out = Annotated[Path, typer.Option("--out", help="Folder to write into.")]
+Clips = Annotated[Path | None, typer.Option("--clips", help="Folder of the clips; PROTOCOL/stimuli unless told.")]
+Data = Annotated[Path | None, typer.Option("--data", help="Folder of the answers; PROTOCOL/data unless told.")]
+Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes that render; one per core unless told.")]
 
 
 def main() -> None:
@@ -41,5 +46,210 @@ def main() -> None:
     try:
         app()
     except InputError as fault:
-        Console(stderr=True, highlight=False, soft_wrap=True).print(f"[red]study:[/red] {fault}", markup=True)
+        Console(stderr=True, highlight=False, soft_wrap=True).print(f"[red bold]study:[/] {escape(str(fault))}")
         sys.exit(1)
+
+
+@app.command()
+def render(path: ProtocolPath, clips: Clips = None, workers: Workers = None, as_json: AsJson = False) -> None:
+    """Render the clips that are missing."""
+    protocol = _load(path)
+    folder = clips or protocol.folder / "stimuli"
+    manifest = _render(protocol, folder, workers)
+    if as_json:
+        _print_json(manifest.model_dump(mode="json"))
+    else:
+        console.print(f"{len(manifest.clips)} clips in {folder}")
+
+
+@app.command()
+def run(
+    path: ProtocolPath,
+    clips: Clips = None,
+    data: Data = None,
+    workers: Workers = None,
+    host: str = "127.0.0.1",
+    port: int = 8000,
+) -> None:
+    """Render what is missing, then serve the study."""
+    protocol = _load(path)
+    folder = clips or protocol.folder / "stimuli"
+    manifest = _render(protocol, folder, workers)
+    _serve(protocol, manifest, folder, data=data, host=host, port=port)
+
+
+@app.command()
+def serve(
+    path: ProtocolPath,
+    clips: Clips = None,
+    data: Data = None,
+    database: Annotated[str | None, typer.Option(help="Database URL; SQLite in the data folder unless told.")] = None,
+    host: str = "127.0.0.1",
+    port: int = 8000,
+    test: Annotated[bool, typer.Option("--test", help="Try the study out: answers are marked and kept apart.")] = False,
+) -> None:
+    """Serve the study with the clips there are."""
+    from stimuli.manifest import Manifest
+
+    protocol = _load(path)
+    folder = clips or protocol.folder / "stimuli"
+    _serve(protocol, Manifest.load(folder), folder, data=data, database=database, host=host, port=port, test=test)
+
+
+def _serve(
+    protocol: Protocol,
+    manifest: Manifest,
+    folder: Path,
+    *,
+    data: Path | None,
+    host: str,
+    port: int,
+    database: str | None = None,
+    test: bool = False,
+) -> None:
+    from study.web import serve as serve_until_stopped
+
+    def announce(links: Links) -> None:
+        console.print(f"[bold]{protocol.title}[/] is open{' as a test' if test else ''}. Ctrl-C closes it.")
+        console.print(f"  participants   {links.participant}")
+        console.print(f"  experimenter   {links.experimenter}")
+        if links.password:
+            console.print(f"  password       {links.password}   (made now and shown once; write it down)")
+
+    serve_until_stopped(
+        protocol,
+        manifest,
+        clips_folder=folder,
+        data_folder=data or protocol.folder / "data",
+        announce=announce,
+        url=database,
+        host=host,
+        port=port,
+        kind="test" if test else "participant",
+    )
+    console.print("Closed. Every acknowledged answer is stored.")
+
+
+@app.command()
+def rehearse(
+    path: ProtocolPath,
+    n: Annotated[int, typer.Option("-n", min=1, help="Simulated participants.")] = 34,
+    out: Annotated[Path, typer.Option("--out", help="Folder to write into.")] = Path("rehearsal"),
+    clips: Clips = None,
+) -> None:
+    """Let simulated participants take the whole study over HTTP, then analyse what they left."""
+    from analysis.report import analyse as analyse_responses
+    from stimuli.manifest import Manifest
+    from study.simulation import rehearse as let_them_come
+    from study.web.site import clips_of
+
+    protocol = _load(path)
+    folder = clips or protocol.folder / "stimuli"
+    with _progress("participants", n) as advance:
+        table = let_them_come(protocol, n, out, clips=clips_of(Manifest.load(folder), folder), progress=advance)
+    analyse_responses(table, protocol, out)
+    console.print(f"{n} [bold]simulated[/] participants (no data) took the study. Their report: {out / 'report.html'}")
+
+
+@app.command()
+def export(
+    path: ProtocolPath,
+    out: Annotated[Path, typer.Option("--out", help="Folder to write into.")] = Path("export"),
+    data: Data = None,
+    database: Annotated[str | None, typer.Option(help="Database URL.")] = None,
+    clips: Clips = None,
+) -> None:
+    """Write the answers as a table, with the codebook that explains it."""
+    from stimuli.manifest import Manifest
+    from study.export import export_responses
+    from study.storage import open_store
+    from study.web.site import clips_of, hashes
+
+    protocol = _load(path)
+    folder = clips or protocol.folder / "stimuli"
+    file = (data or protocol.folder / "data") / "study.db"
+    if database is None and not file.exists():
+        raise InputError(f"{file}: no answers yet. `study run {path}` opens the study; --data names another folder.")
+    store = open_store(database or f"sqlite:///{file}")
+    table = export_responses(store, protocol, out, clips=hashes(clips_of(Manifest.load(folder), folder)))
+    store.close()
+    console.print(f"{table} and its codebook are written.")
+
+
+@app.command()
+def analyse(
+    responses: Annotated[Path, typer.Argument(metavar="RESPONSES.csv", help="Answers, one row per item.")],
+    protocol: Annotated[Path, typer.Option("--protocol", help="Protocol folder, or its YAML file.")],
+    out: Annotated[Path, typer.Option("--out", help="Folder to write into.")] = Path("report"),
+) -> None:
+    """Carry out the protocol's plan of analysis: statistics, tables, figures and the report."""
+    from analysis.report import analyse as analyse_responses
+
+    analyse_responses(responses, _load(protocol), out)
+    console.print(f"The report is {out / 'report.html'}; all numbers are in {out / 'results.json'}.")
+
+
+@app.command()
+def orders(
+    path: ProtocolPath,
+    n: Annotated[int, typer.Option("-n", min=1, help="Participants.")] = 36,
+    as_json: AsJson = False,
+) -> None:
+    """Print who sees what when, and how well that is balanced."""
+    from study.orders import balance, draw_plan, orders_csv
+
+    protocol = _load(path)
+    plans = [draw_plan(protocol, slot) for slot in range(n)]
+    if as_json:
+        _print_json(balance(plans))
+        return
+    sys.stdout.write(orders_csv(plans))
+
+
+@app.command()
+def doctor(as_json: AsJson = False) -> None:
+    """Say whether this machine can render and serve, and what to install where not."""
+    from stimuli.doctor import examine
+
+    report = examine()
+    for line in report.lines:
+        console.print(line)
+    raise typer.Exit(0 if report.can_render else 1)
+
+
+def _load(path: Path) -> Protocol:
+    from study.protocol import load_protocol
+
+    return load_protocol(path)
+
+
+def _render(protocol: Protocol, folder: Path, workers: int | None) -> Manifest:
+    from stimuli.library import Progress as Rendered
+    from stimuli.library import render_missing
+    from stimuli.robots import load_robot
+    from study.specs import specs
+
+    wanted = specs(protocol)
+    robots = {spec.robot: load_robot(spec.robot, protocol.folder) for spec in wanted.values()}
+    with _progress("rendering", None) as advance:
+
+        def told(rendered: Rendered) -> None:
+            advance(rendered.done, rendered.total)
+
+        return render_missing(list(wanted.values()), robots, folder, workers=workers, progress=told)
+
+
+@contextmanager
+def _progress(what: str, total: int | None) -> Iterator[Any]:
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as shown:
+        task = shown.add_task(what, total=total)
+        yield lambda done, of=None: shown.update(task, completed=done, total=of or total)
+
+
+def _print_json(value: Any) -> None:
+    sys.stdout.write(json.dumps(value, indent=2, ensure_ascii=False) + "\n")
+
+
+if __name__ == "__main__":
+    main()
