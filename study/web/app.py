@@ -13,12 +13,17 @@ from study.web.pages import STATIC, render, static_version
 from study.web.security import Guard
 from study.web.site import Site
 
+LONGEST_BODY = 256 * 1024  # bytes; an answered page with its playback records has some 10 kB
 FOR_EVER = {"Cache-Control": "public, max-age=31536000, immutable"}
 
 
 def create_app(site: Site) -> FastAPI:
     """The application that serves a study."""
-    app = FastAPI(title=site.protocol.study, docs_url=None, redoc_url=None, openapi_url=None)
+    app = FastAPI(
+        title=site.protocol.study,
+        openapi_url=None,
+        max_body_size=LONGEST_BODY,
+    )
     app.state.site = site
     app.include_router(participant.router)
     app.include_router(experimenter.router)

@@ -39,7 +39,7 @@ class Clip:
 def clips_of(manifest: Manifest, folder: Path) -> dict[str, Clip]:
     """The clips of a manifest by stimulus id; `folder` is where their files are."""
     return {
-        stimulus: Clip(folder / clip.file, clip.sha256, clip.size, clip.duration_s)
+        stimulus: Clip(folder / clip.file, clip.file_sha256, clip.size_bytes, clip.duration_s)
         for stimulus, clip in manifest.clips.items()
     }
 

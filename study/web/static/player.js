@@ -64,7 +64,7 @@ export class Player {
 
   async #play() {
     this.onplay(this);
-    this.#playedNow = this.#video.ended || this.#video.currentTime === 0 ? 0 : this.#playedNow;
+    this.#looked = performance.now(); // the first frames may be shown before "playing" is heard
     try {
       await this.#video.play();
     } catch (error) {
@@ -80,8 +80,6 @@ export class Player {
     on("loadeddata", () => { this.record.duration_s = video.duration; });
     on("playing", () => {
       this.#playing = true;
-      this.#place = video.currentTime;
-      this.#looked = performance.now();
       this.#button.hidden = true;
       this.#say("");
       this.#countFrames();
