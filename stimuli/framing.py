@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 
 from stimuli.robots.model import Robot
-from stimuli.scene import PRESETS, outline, pose, studio
+from stimuli.scene import PRESETS, Outline, places, pose, studio
 from stimuli.trajectory import FloatArray, Trajectory
 
 MARGIN = 0.03  # of the picture's height that stays free
@@ -19,27 +19,32 @@ RATE_HZ = 15
 def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, height: int) -> str:
     """The closest preset in which no part that moves leaves the frame; the widest where all fail."""
     fitting = list(PRESETS)[:-1]
-    studios: dict[str, mujoco.MjModel] = {}
+    studios: dict[str, tuple[mujoco.MjModel, Outline]] = {}
     for robot, trajectory in motions:
-        model = studios.setdefault(robot.sha256, studio(robot, width=width, height=height))
-        points = _swept(model, robot, trajectory)
+        if robot.sha256 not in studios:
+            model = studio(robot, width=width, height=height)
+            studios[robot.sha256] = (
+                model,
+                Outline(model, np.flatnonzero(model.body_weldid[model.geom_bodyid])),
+            )
+        model, outline = studios[robot.sha256]
+        points = _swept(model, outline, robot, trajectory)
         fitting = [name for name in fitting if _inside(points, model, name, width / height)]
     return fitting[0] if fitting else list(PRESETS)[-1]
 
 
-def _swept(model: mujoco.MjModel, robot: Robot, trajectory: Trajectory) -> FloatArray:
+def _swept(model: mujoco.MjModel, outline: Outline, robot: Robot, trajectory: Trajectory) -> FloatArray:
     """All places, shape (n, 3), of the points of parts that move."""
     times = np.arange(trajectory.times[0], trajectory.times[-1] + 1 / RATE_HZ, 1 / RATE_HZ)
     data = mujoco.MjData(model)
-    geoms = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
-    places: list[list[FloatArray]] = []
+    taken = []
     for row in trajectory.at(times).tolist():
-        positions: Mapping[str, float] = {**robot.home, **dict(zip(trajectory.joints, row, strict=True))}
-        pose(model, data, robot, positions)
-        places.append([outline(model, data, geom)[::4] for geom in geoms])
-    parts = [np.stack(part) for part in zip(*places, strict=True)]  # each (times, points, 3)
-    moving = [part for part in parts if np.linalg.norm(part - part[0], axis=-1).max() > MOVES_M]
-    return np.concatenate([part.reshape(-1, 3) for part in moving]) if moving else np.empty((0, 3))
+        pose(model, data, robot, {**robot.home, **dict(zip(trajectory.joints, row, strict=True))})
+        taken.append(outline.placed(places(data)))
+    points = np.stack(taken)  # (times, points, 3)
+    moves = np.linalg.norm(points - points[0], axis=-1).max(axis=0) > MOVES_M
+    moving = np.isin(outline.geoms, outline.geoms[moves])
+    return points[:, moving].reshape(-1, 3)
 
 
 def _inside(points: FloatArray, model: mujoco.MjModel, name: str, aspect: float) -> bool:

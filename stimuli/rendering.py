@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from stimuli.errors import InputError
 from stimuli.robots.model import Robot
-from stimuli.scene import pose, studio
+from stimuli.scene import Outline, places, pose, studio
+from stimuli.trajectory import FloatArray
 
 Image = NDArray[np.uint8]
 
@@ -44,6 +45,7 @@ class Renderer:
         self.model = studio(robot, width=width, height=height)
         self.model.vis.quality.offsamples = SAMPLES
         self.data = mujoco.MjData(self.model)
+        self._outline = Outline(self.model)
         self._scene = mujoco.MjvScene(self.model, maxgeom=self.model.ngeom + 10)
         for flag in (
             mujoco.mjtRndFlag.mjRND_SHADOW,
@@ -63,7 +65,7 @@ class Renderer:
     def look_through(self, camera: str) -> None:
         """Change the camera; the next frame is the first of a clip."""
         self._view.fixedcamid = self.model.camera(camera).id
-        self._first: tuple[Image, NDArray[np.float64]] | None = None
+        self._first: tuple[Image, FloatArray] | None = None
         self._last: tuple[Mapping[str, float], Image] | None = None
 
     def frame(self, positions: Mapping[str, float]) -> Image:
@@ -76,25 +78,20 @@ class Renderer:
         )
         image = self._whole() if self._first is None or not self._crop else self._cropped(*self._first)
         if self._first is None:
-            self._first = (image, self._places())
+            self._first = (image, places(self.data))
         self._last = (dict(positions), image)
         return image
-
-    def _places(self) -> NDArray[np.float64]:
-        """Where every geom is, shape (ngeom, 12): rotation matrix and position."""
-        return np.hstack([self.data.geom_xmat, self.data.geom_xpos])
 
     def _whole(self) -> Image:
         return self._draw(0, 0, self.width, self.height)
 
-    def _cropped(self, image: Image, places: NDArray[np.float64]) -> Image:
-        """The first frame with what moved drawn anew."""
-        now = self._places()
-        moved = np.flatnonzero(np.abs(now - places).max(axis=1) > STILL)
-        if not len(moved):
+    def _cropped(self, image: Image, before: FloatArray) -> Image:
+        """The first frame with what moved drawn anew, where it was and where it is."""
+        now = places(self.data)
+        moved = np.abs(now - before).max(axis=1) > STILL
+        if not moved.any():
             return image
-        corners = np.vstack([self._corners(places[moved], moved), self._corners(now[moved], moved)])
-        x, y = self.project(corners).T
+        x, y = self.project(np.vstack([self._outline.placed(where, moved) for where in (before, now)])).T
         left, bottom = max(0, int(x.min()) - BORDER), max(0, int(y.min()) - BORDER)
         right, top = min(self.width, int(x.max()) + 1 + BORDER), min(self.height, int(y.max()) + 1 + BORDER)
         if right <= left or top <= bottom:
@@ -103,25 +100,13 @@ class Renderer:
         frame[self.height - top : self.height - bottom, left:right] = self._draw(left, bottom, right, top)
         return frame
 
-    def _corners(self, places: NDArray[np.float64], geoms: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Corners of the geoms' bounding boxes in the world, shape (8 n, 3)."""
-        signs = np.stack(np.meshgrid([-1, 1], [-1, 1], [-1, 1]), axis=-1).reshape(8, 3)
-        box = self.model.geom_aabb[geoms]
-        local = box[:, None, :3] + signs * box[:, None, 3:]
-        turned: NDArray[np.float64] = (
-            np.einsum("gij,gkj->gki", places[:, :9].reshape(-1, 3, 3), local) + places[:, None, 9:]
-        )
-        return turned.reshape(-1, 3)
-
-    def project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def project(self, points: FloatArray) -> FloatArray:
         """Pixel coordinates (n, 2) of points in the world (n, 3): x from the left, y from the bottom."""
         camera = self._view.fixedcamid
         seen = (points - self.data.cam_xpos[camera]) @ self.data.cam_xmat[camera].reshape(3, 3)
         focal = self.height / 2 / np.tan(np.radians(self.model.cam_fovy[camera]) / 2)
         depth = np.maximum(-seen[:, 2:], self.model.vis.map.znear * self.model.stat.extent)
-        pixels: NDArray[np.float64] = (
-            np.array([self.width / 2, self.height / 2]) + focal * seen[:, :2] / depth
-        )
+        pixels: FloatArray = np.array([self.width / 2, self.height / 2]) + focal * seen[:, :2] / depth
         return pixels
 
     def _draw(self, left: int, bottom: int, right: int, top: int) -> Image:

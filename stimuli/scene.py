@@ -7,10 +7,12 @@ frame without a GPU. The robot's contact shadow is painted on the floor under it
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
 from stimuli.robots.model import Robot
@@ -66,21 +68,45 @@ def extent(model: mujoco.MjModel, robot: Robot) -> tuple[FloatArray, FloatArray]
     """Lowest and highest corner of the robot at home, in metres."""
     data = mujoco.MjData(model)
     pose(model, data, robot, robot.home)
-    points = np.vstack([outline(model, data, geom) for geom in range(model.ngeom)])
+    points = Outline(model).placed(places(data))
     return points.min(axis=0), points.max(axis=0)
 
 
-def outline(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> FloatArray:
-    """Points around a geom in the world, shape (n, 3): a mesh's vertices, or the corners of its box."""
-    mesh = model.geom_dataid[geom]
-    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
-        start = model.mesh_vertadr[mesh]
-        local = model.mesh_vert[start : start + model.mesh_vertnum[mesh]]
-    else:
+def places(data: mujoco.MjData) -> FloatArray:
+    """Where every geom is, shape (geoms, 12): rotation matrix by rows, and position."""
+    return np.hstack([data.geom_xmat, data.geom_xpos])
+
+
+class Outline:
+    """Points whose hull holds each visible part: the hull of its mesh, or the corners of its bounding box."""
+
+    def __init__(self, model: mujoco.MjModel, geoms: Iterable[int] | None = None) -> None:
+        chosen = list(range(model.ngeom) if geoms is None else geoms)
+        points = [_hull(model, geom) for geom in chosen]
+        self.points = np.vstack(points)  # (n, 3) m, in the frame of the geom
+        self.geoms = np.repeat(chosen, [len(some) for some in points])  # (n,) the geom each belongs to
+
+    def placed(self, places: FloatArray, geoms: NDArray[np.bool_] | None = None) -> FloatArray:
+        """The points (m, 3) in the world, of all geoms or of those marked true."""
+        chosen = slice(None) if geoms is None else geoms[self.geoms]
+        where = places[self.geoms[chosen]]
+        turned: FloatArray = np.einsum("nij,nj->ni", where[:, :9].reshape(-1, 3, 3), self.points[chosen])
+        moved: FloatArray = turned + where[:, 9:]
+        return moved
+
+
+def _hull(model: mujoco.MjModel, geom: int) -> FloatArray:
+    if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_MESH:
         centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
-        local = centre + half * np.array(list(itertools.product([-1, 1], repeat=3)))
-    points: FloatArray = local @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
-    return points
+        corners: FloatArray = centre + half * np.array(list(itertools.product([-1, 1], repeat=3)))
+        return corners
+    mesh = model.geom_dataid[geom]
+    vertices: FloatArray = model.mesh_vert[model.mesh_vertadr[mesh] :][: model.mesh_vertnum[mesh]]
+    try:
+        hull: FloatArray = vertices[ConvexHull(vertices).vertices]
+        return hull
+    except QhullError:  # flat
+        return vertices
 
 
 def add_light(spec: mujoco.MjSpec) -> None:

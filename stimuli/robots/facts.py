@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
@@ -75,6 +76,7 @@ class Facts(BaseModel):
     body: Mapping[str, Any] = Field(default_factory=dict)
 
 
+@cache
 def read_facts(name: str) -> Facts:
     """Read the packaged facts of a robot."""
     text = files("stimuli.robots").joinpath(f"{name}.yaml").read_text(encoding="utf-8")
