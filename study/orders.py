@@ -8,7 +8,7 @@ exactly, and any run of slots nearly. `ALGORITHM` names this drawing; whoever ch
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from math import lcm
 from typing import TypeVar
@@ -83,13 +83,12 @@ def cycle(protocol: Protocol) -> int:
     lengths = [1]
     for part in protocol.parts.values():
         lengths += [len(question.option_orders) for question in part.questions]
-        stimuli = [protocol.stimuli[stimulus] for stimulus in part.stimuli]
-        groups = _groups(part, stimuli)
-        if part.order.blocks:
-            lengths.append(_rows(part.order.blocks[1], len(groups)))
-        for group in groups:
-            method = "williams" if part.order.levels else part.order.stimuli
-            lengths.append(_rows(method, len(group)))
+        groups = _groups(part, [protocol.stimuli[stimulus] for stimulus in part.stimuli])
+        method = "williams" if part.order.levels else part.order.stimuli
+        within = lcm(*(_rows(method, len(group)) for group in groups))
+        outer = part.order.blocks[1] if part.order.blocks else "fixed"
+        blocks = _rows(outer, len(groups))
+        lengths.append(blocks * within if outer == BETWEEN else lcm(blocks, within))
     return lcm(*lengths)
 
 
@@ -123,10 +122,12 @@ class _Draw:
         if order.max_run:
             return self.without_runs(stimuli, order.max_run)
         groups = _groups(part, stimuli)
+        among = len(groups) if order.blocks and order.blocks[1] == BETWEEN else 1
+        own = replace(self, slot=self.slot // among)  # those who see the same group share its rows out
         if order.levels:
-            groups = self.balanced_within(groups)
+            groups = own.balanced_within(groups)
         elif order.stimuli:
-            groups = [self.arranged(order.stimuli, group, f"group {at}") for at, group in enumerate(groups)]
+            groups = [own.arranged(order.stimuli, group, f"group {at}") for at, group in enumerate(groups)]
         if order.blocks:
             groups = list(self.arranged(order.blocks[1], groups, "blocks"))
         return tuple(stimulus for group in groups for stimulus in group)

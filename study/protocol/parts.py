@@ -24,10 +24,14 @@ NEUTRAL = "neutral"  # the modulation that changes nothing, always there
 PRACTICE = "practice"  # id of the stimulus one practises on
 
 
+def _one_or_more(value: Any) -> Any:
+    return [value] if isinstance(value, str) else value
+
+
 class Selection(Written):
     """Which stimuli a part has: gestures under named modulations, or at the levels of principles."""
 
-    gesture: Name | list[Name]
+    gesture: Annotated[list[Name], BeforeValidator(_one_or_more), Field(min_length=1)]
     modulations: list[Name] | None = Field(None, min_length=1)
     levels: list[Name] | None = Field(None, min_length=1)
     prefix: str = ""  # put before the ids, where two parts would otherwise give a stimulus the same one
@@ -41,7 +45,7 @@ class Selection(Written):
     @property
     def gestures(self) -> tuple[str, ...]:
         """The demonstrations, one or more."""
-        return (self.gesture,) if isinstance(self.gesture, str) else tuple(self.gesture)
+        return tuple(self.gesture)
 
 
 @dataclass(frozen=True)

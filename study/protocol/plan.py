@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
-from study.written import Seconds, Written, wrong
+from study.written import Seconds, Written, nearest, wrong
 
 Probability = Annotated[float, Field(gt=0, lt=1)]
 Test = Literal["one-sample t", "independent t", "paired t", "wilcoxon", "mcnemar", "binomial"]
-Chance = (
-    Annotated[float, Field(allow_inf_nan=False)]
-    | Literal[
-        "midpoint",
-        "grand mean",
-        "other stimuli",
-        "other items",
-        "equal share",
-        "best item",
-        "double difference",
-    ]
-)
+ChanceName = Literal[
+    "midpoint",
+    "grand mean",
+    "other stimuli",
+    "other items",
+    "equal share",
+    "best item",
+    "double difference",
+]
+
+
+def _chance(value: Any) -> Any:
+    names = get_args(ChanceName)
+    if isinstance(value, bool) or (not isinstance(value, (int, float)) and value not in names):
+        raise wrong(f"must be a number or say how chance is found; {nearest(value, names)}")
+    return value
+
+
+Chance = Annotated[float | ChanceName, BeforeValidator(_chance)]
 
 
 class Exclusions(Written):

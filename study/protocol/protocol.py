@@ -11,8 +11,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, field_validator, model_validator
 
+from stimuli.dmp import Learning
 from stimuli.principles import Modulation
 from study.protocol.errors import ProtocolError
 from study.protocol.modulations import read_levels, read_modulations
@@ -23,7 +24,7 @@ from study.protocol.source import Source, read_source
 from study.protocol.texts import Texts, WrittenTexts, completed, files_named_in, shipped, shipped_demographics
 from study.questions import Asked
 from study.text import Text
-from study.written import NAME, Seconds, Written
+from study.written import NAME, Seconds, Written, wrong
 
 Language = Annotated[str, Field(pattern=r"^[a-z]{2,3}(-[A-Z]{2})?$")]
 
@@ -36,6 +37,23 @@ class Video(Written):
     camera: str = "auto"
     lead_in: Seconds = 0.5
     hold: Seconds = 0.5
+
+    @field_validator("size")
+    @classmethod
+    def _even(cls, size: str) -> str:
+        if any(int(side) % 2 for side in size.split("x")):
+            raise wrong("must have even sides, as the video format demands")
+        return size
+
+    @property
+    def pixels(self) -> tuple[int, int]:
+        """Width and height."""
+        width, height = self.size.split("x")
+        return int(width), int(height)
+
+
+class WrittenLearning(Learning, Written):
+    """How demonstrations are learned, as `learning:` has it; the defaults are meant to be left alone."""
 
 
 class Protocol(Written):
@@ -51,6 +69,7 @@ class Protocol(Written):
     robot: str
     seed: int = Field(ge=0)
     video: Video = Video()
+    learning: WrittenLearning = WrittenLearning()
     gestures: dict[Name, Path] = Field(min_length=1)
     modulations: Annotated[dict[Name, Modulation], BeforeValidator(read_modulations)] = Field(
         default_factory=dict
@@ -161,26 +180,31 @@ class Protocol(Written):
         )
 
     @cached_property
-    def _length(self) -> tuple[int, float]:
-        """How many videos one participant sees, and an estimate of how long everything takes, in seconds."""
+    def length(self) -> tuple[int, int]:
+        """How many videos a participant sees, and how many minutes it takes, estimated or as told."""
         videos, seconds = 0, 60.0
-        for part_id, part in self.written_parts.items():
-            stimuli = [s for s in self.stimuli_of(part_id) if s.level is None or s.level != part.reference]
-            shown = part.order.shown(stimuli)
-            items = sum(len(question.items) for question in part.ask)
-            videos += shown * (2 if part.reference else 1)
-            seconds += shown * (20 + 4 * items + (10 if part.reference else 0))
-        return videos, seconds
+        for part in self.written_parts:
+            judged, items, clips = self._pages(part)
+            videos += judged * clips
+            seconds += judged * (10 + 10 * clips + 4 * items)
+        return videos, self.minutes or math.ceil(seconds / 60)
+
+    def _pages(self, part_id: str) -> tuple[int, int, int]:
+        """Of one part: pages that a participant sees, items to answer on each, clips on each."""
+        part = self.written_parts[part_id]
+        judged = [s for s in self.stimuli_of(part_id) if s.level is None or s.level != part.reference]
+        items = sum(len(question.items) for question in part.ask)
+        return part.order.shown(judged), items, 2 if part.reference else 1
 
     def _completed(self, text: Text) -> Text:
-        videos, seconds = self._length
+        videos, minutes = self.length
         values = {
             "title": self.title,
             "contact": Text(self.contact),
             "authors": Text(", ".join(self.authors)),
             "ethics": Text(self.ethics or ""),
             "videos": Text(str(videos)),
-            "minutes": Text(str(self.minutes or math.ceil(seconds / 60))),
+            "minutes": Text(str(minutes)),
         }
         return completed(text, self.languages, folder=self.folder, values=values)
 

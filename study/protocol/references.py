@@ -37,14 +37,13 @@ def _stimuli(protocol: Protocol) -> Iterator[Contradiction]:
         here: Location = ("parts", part_id)
         chosen = part.stimuli
         for at, gesture in enumerate(chosen.gestures):
-            place: Location = () if isinstance(chosen.gesture, str) else (at,)
-            yield from _unknown((*here, "stimuli", "gesture", *place), gesture, protocol.gestures, "gesture")
+            yield from _unknown((*here, "stimuli", "gesture", at), gesture, protocol.gestures, "gesture")
         for at, name in enumerate(chosen.modulations or ()):
             if not protocol.members(name):
                 known = [*protocol.modulations, NEUTRAL]
                 yield from _unknown((*here, "stimuli", "modulations", at), name, known, "modulation")
         for at, kind in enumerate(chosen.levels or ()):
-            place = (*here, "stimuli", "levels", at)
+            place: Location = (*here, "stimuli", "levels", at)
             yield from _unknown(place, kind, protocol.levels, "principle with levels")
             if part.reference and kind in protocol.levels and part.reference not in protocol.levels[kind]:
                 known_levels = protocol.levels[kind]
@@ -100,7 +99,7 @@ def _texts(protocol: Protocol) -> Iterator[Contradiction]:
     ]
     for here, text in texts:
         for language, file in files_named_in(text, protocol.folder).items():
-            place = (*here, language) if language else here
+            place: Location = (*here, language) if language else here
             try:
                 file.read_text(encoding="utf-8")
             except OSError as error:

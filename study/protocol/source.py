@@ -39,10 +39,12 @@ class Source:
         the field's name is at fault, not its value.
         """
         found: Location = ()
+        rest: Location = ()
         for element in location:
             if (*found, element) in self.places:
-                found = (*found, element)
-        rest = location[-1:] if found[-1:] != tuple(location[-1:]) else ()
+                found, rest = (*found, element), ()
+            else:
+                rest = (*rest, element)
         if rest and not isinstance(self._value_at(found), (dict, list)):
             rest = ()  # a plain value where a mapping could stand: the value itself is at fault
         at_name = name or bool(rest)
@@ -113,9 +115,7 @@ class _Reader:
             _fail(self.path, _plainly(error, self.text), line, column)
         except yaml.reader.ReaderError as error:
             line = self.text.count("\n", 0, error.position) + 1
-            _fail(
-                self.path, f"holds the character U+{ord(str(error.character)):04X}, which is not text", line
-            )
+            _fail(self.path, f"holds the character U+{int(error.character):04X}, which is not text", line)
         return Source(self.path, value, self.places, self.key_places)
 
     def _document(self, events: Iterator[yaml.Event]) -> Any:
@@ -134,9 +134,7 @@ class _Reader:
     def _value(self, event: yaml.Event, events: Iterator[yaml.Event], at: Location) -> Any:
         self.places[at] = _place(event)
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
-            self._refuse(
-                event, "anchors (&) and aliases (*) are not used in protocols; write it out, or `extends`"
-            )
+            self._refuse(event, "anchors (&) and aliases (*) are not used in protocols; write it out")
         if getattr(event, "tag", None):
             self._refuse(event, "tags (!) are not used in protocols; quote text that begins with !")
         if isinstance(event, yaml.ScalarEvent):

@@ -29,7 +29,7 @@ class Number(Question):
         return {self.item: self.text}
 
     def _check_value(self, item: str, answer: str) -> None:
-        if not re.fullmatch(r"-?\d{1,15}" if self.whole else r"-?\d{1,15}(\.\d{1,15})?", answer):
+        if not re.fullmatch(r"-?[0-9]{1,15}" if self.whole else r"-?[0-9]{1,15}(\.[0-9]{1,15})?", answer):
             raise AnswerError(f"{item}: {answer!r} is not a {'whole ' if self.whole else ''}number")
         if self.least is not None and float(answer) < self.least:
             raise AnswerError(f"{item}: {answer} is less than {self.least:g}")

@@ -1,0 +1,67 @@
+"""How evenly orders are spread: who stands where how often, and who follows whom."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import groupby, pairwise
+
+from study.orders import Plan
+from study.protocol import Part, Protocol
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Counts over the plans for one part; of whole blocks where the part is ordered in blocks."""
+
+    part: str
+    things: tuple[str, ...]  # what is ordered: stimuli, or the principles, gestures or modulations of blocks
+    positions: dict[str, tuple[int, ...]]  # thing → how often it stood first, second, …
+    follows: dict[tuple[str, str], int]  # (a, b) → how often b came straight after a
+    first: dict[str, int]  # stimulus → how often it came first within its block
+
+    @property
+    def position_range(self) -> tuple[int, int]:
+        """Least and largest count of a thing in a position."""
+        counts = [count for row in self.positions.values() for count in row]
+        return min(counts), max(counts)
+
+    @property
+    def follows_range(self) -> tuple[int, int]:
+        """Least and largest count of one thing straight after another."""
+        counts = self.follows.values() or [0]
+        return min(counts), max(counts)
+
+
+def balance(protocol: Protocol, plans: Sequence[Plan]) -> list[Balance]:
+    """Count positions and carry-over in each part."""
+    return [_balance(protocol, part, plans) for part in protocol.parts.values()]
+
+
+def _balance(protocol: Protocol, part: Part, plans: Iterable[Plan]) -> Balance:
+    alike = part.order.blocks[0] if part.order.blocks else None
+
+    def thing(stimulus: str) -> str:
+        return (protocol.stimuli[stimulus].feature(alike) if alike else stimulus) or stimulus
+
+    things = tuple(dict.fromkeys(map(thing, part.stimuli)))
+    standing: Counter[tuple[str, int]] = Counter()
+    follows = Counter({(a, b): 0 for a in things for b in things if a != b})
+    first: Counter[str] = Counter()
+    places = 0
+    for plan in plans:
+        shown = [trial.stimulus for trial in plan.trials if trial.part == part.id and not trial.practice]
+        blocks = [list(block) for _, block in groupby(shown, key=thing)]
+        sequence = [thing(block[0]) for block in blocks]
+        places = max(places, len(sequence))
+        standing.update((name, place) for place, name in enumerate(sequence))
+        follows.update(pairwise(sequence))
+        first.update(block[0] for block in blocks if len(block) > 1)
+    return Balance(
+        part=part.id,
+        things=things,
+        positions={name: tuple(standing[name, place] for place in range(places)) for name in things},
+        follows=dict(follows),
+        first=dict(first),
+    )

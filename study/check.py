@@ -1,0 +1,197 @@
+"""Everything there is to check before the first participant comes, as one screen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+from pydantic import BaseModel
+
+from stimuli.errors import InputError
+from stimuli.gestures import read_gesture
+from stimuli.motion import generate
+from stimuli.robots import load_robot
+from study.balance import balance
+from study.orders import cycle, draw_plan
+from study.protocol import Problem, Protocol
+from study.specs import specs
+from study.text import Text
+from study.written import Location
+
+Verdict = Literal["good", "mind", "wrong"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing looked at: whether it is good, should be borne in mind, or must be mended."""
+
+    verdict: Verdict
+    about: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Report:
+    """What `study check` found."""
+
+    study: str
+    sha256: str
+    findings: tuple[Finding, ...]
+
+    @property
+    def good(self) -> bool:
+        """Whether data may be gathered."""
+        return all(finding.verdict != "wrong" for finding in self.findings)
+
+    def as_json(self) -> dict[str, Any]:
+        """The same for programs."""
+        return {**asdict(self), "good": self.good}
+
+    def __str__(self) -> str:
+        signs = {"good": "✓", "mind": "!", "wrong": "✗"}
+        width = max(len(finding.about) for finding in self.findings)
+        lines = []
+        for finding in self.findings:
+            first, *rest = finding.message.split("\n")
+            lines.append(f"{signs[finding.verdict]} {finding.about:<{width}}  {first}")
+            lines += [f"  {'':<{width}}  {line}" for line in rest]
+        end = "Ready for participants." if self.good else "Not ready: mend what is marked ✗."
+        return "\n".join([f"{self.study} ({self.sha256[:12]})", *lines, end])
+
+
+def check(protocol: Protocol) -> Report:
+    """Look at everything that can be known before data are gathered."""
+    looked_at = (_structure, _motions, _texts, _orders, _hypotheses)
+    findings = tuple(finding for look in looked_at for finding in look(protocol))
+    return Report(protocol.study, protocol.sha256, findings)
+
+
+def _structure(protocol: Protocol) -> Iterator[Finding]:
+    judged = sum(len(part.stimuli) for part in protocol.parts.values())
+    videos, minutes = protocol.length
+    yield Finding(
+        "good",
+        "study",
+        f"{len(protocol.stimuli)} stimuli, {judged} of them judged in {len(protocol.parts)} "
+        f"part{'s' if len(protocol.parts) > 1 else ''}; a participant sees {videos} videos in about "
+        f"{minutes} minutes",
+    )
+
+
+def _motions(protocol: Protocol) -> Iterator[Finding]:
+    """Every gesture can be read, and the robot can do every stimulus."""
+    try:
+        robot = load_robot(protocol.robot, protocol.folder)
+    except InputError as error:
+        yield Finding("wrong", "robot", str(protocol.source.problem(("robot",), str(error))))
+        return
+    broken = []
+    for name, path in protocol.gestures.items():
+        try:
+            read_gesture(protocol.folder / path, robot)
+        except InputError as error:
+            broken.append(str(protocol.source.problem(("gestures", name), str(error))))
+    if broken:
+        yield Finding("wrong", "gestures", "\n".join(broken))
+        return
+    yield Finding("good", "gestures", f"{len(protocol.gestures)} read for {robot.title}")
+    beyond = []
+    for spec in specs(protocol).values():
+        try:
+            generate(spec, robot)
+        except InputError as error:
+            beyond.append(str(error))
+    if beyond:
+        yield Finding("wrong", "motions", "\n".join(beyond))
+    else:
+        yield Finding("good", "motions", "the robot can do every stimulus within its limits")
+
+
+def _texts(protocol: Protocol) -> Iterator[Finding]:
+    """Every text is there in every language."""
+    problems = [
+        _lacking(protocol, location, lacking)
+        for location, text in _all_texts(protocol)
+        if (lacking := text.lacks(protocol.languages))
+    ]
+    if problems:
+        yield Finding("wrong", "texts", "\n".join(map(str, problems)))
+    else:
+        yield Finding("good", "texts", f"complete in {' and '.join(protocol.languages)}")
+
+
+def _lacking(protocol: Protocol, location: Location, languages: tuple[str, ...]) -> Problem:
+    return protocol.source.problem(location, f"is missing in {' and '.join(languages)}", name=True)
+
+
+def _all_texts(protocol: Protocol) -> Iterator[tuple[Location, Text]]:
+    yield ("title",), protocol.title
+    for name, text in protocol.texts:
+        yield ("texts", name), text
+    for at, question in enumerate(protocol.demographics):
+        yield from _texts_in(question, ("demographics", at, question.kind))
+    for part_id, part in protocol.parts.items():
+        yield ("parts", part_id, "title"), part.title
+        yield ("parts", part_id, "intro"), part.intro
+        for at, question in enumerate(part.questions):
+            yield from _texts_in(question, ("parts", part_id, "ask", at, question.kind))
+
+
+def _texts_in(value: Any, location: Location) -> Iterator[tuple[Location, Text]]:
+    """All texts inside a question, wherever its kind keeps them."""
+    if isinstance(value, Text):
+        yield location, value
+    elif isinstance(value, BaseModel):
+        for name, field in type(value).model_fields.items():
+            yield from _texts_in(getattr(value, name), (*location, field.alias or name))
+    elif isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _texts_in(inner, (*location, key))
+    elif isinstance(value, tuple):
+        for at, inner in enumerate(value):
+            yield from _texts_in(inner, (*location, at))
+
+
+def _orders(protocol: Protocol) -> Iterator[Finding]:
+    """The planned number of participants fills the design evenly."""
+    planned = protocol.participants.planned
+    try:
+        plans = [draw_plan(protocol, slot) for slot in range(planned)]
+    except InputError as error:
+        yield Finding("wrong", "orders", str(error))
+        return
+    whole = cycle(protocol)
+    if planned % whole:
+        fewer, more = planned - planned % whole, planned - planned % whole + whole
+        others = f"{fewer} or {more}" if fewer else str(more)
+        yield Finding("mind", "orders", f"{planned} participants leave the orders uneven; {others} would not")
+    else:
+        yield Finding("good", "orders", f"balanced for {planned} participants (a multiple of {whole})")
+    for part in balance(protocol, plans):
+        low, high = part.position_range
+        after_low, after_high = part.follows_range
+        yield Finding(
+            "good",
+            f"  {part.part}",
+            f"in each position {_range(low, high)}, after each other {_range(after_low, after_high)}",
+        )
+
+
+def _range(low: int, high: int) -> str:
+    return f"{low} times" if low == high else f"{low} to {high} times"
+
+
+def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
+    hypotheses = protocol.analysis.hypotheses
+    if not hypotheses:
+        yield Finding("mind", "analysis", "no hypothesis is declared; tests chosen after the data prove less")
+    for name, hypothesis in hypotheses.items():
+        tested = "against chance" if hypothesis.of else " against ".join(hypothesis.compare or ())
+        corrected = "" if hypothesis.correction == "none" else f", {hypothesis.correction}-corrected"
+        mirrored = f"; the same test as {hypothesis.mirrors}, counted once" if hypothesis.mirrors else ""
+        yield Finding(
+            "good",
+            name,
+            f"{hypothesis.part}: {hypothesis.test}, {tested}, {hypothesis.alternative}{corrected}{mirrored}",
+        )
