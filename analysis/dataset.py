@@ -96,8 +96,9 @@ def read_responses(path: Path, protocol: Protocol) -> Responses:
     """Read `participant, stimulus, item, response` (and `part`, `trial`, `rt_ms` where present).
 
     Columns may stand in any order and others are ignored; an empty response is a missing answer. Rows on the
-    practice, of pages outside the parts or on questions without options are left out. Anything else that the protocol
-    does not know, and a second answer to the same item, is refused with its line. Raises ResponsesError.
+    practice, of pages outside the parts or on questions without options are left out. Anything else that
+    the protocol does not know, and a second answer to the same item, is refused with its line. Raises
+    ResponsesError.
     """
     rows = read_rows(path)
     empty = [

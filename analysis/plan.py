@@ -78,12 +78,17 @@ def decide(name: str, hypothesis: Hypothesis, responses: Responses, protocol: Pr
     judging = Judging(
         test=hypothesis.test,
         alternative=hypothesis.alternative,
-        correction=hypothesis.correction,
+        correction=_counted(hypothesis, protocol).correction,
         alpha=protocol.analysis.alpha,
     )
     if hypothesis.compare is None:
         return _targets(name, hypothesis, answers, protocol, judging)
     return _levels(name, hypothesis, answers, protocol, judging)
+
+
+def _counted(hypothesis: Hypothesis, protocol: Protocol) -> Hypothesis:
+    """The hypothesis that is counted: a mirrored one takes over the correction of what it mirrors."""
+    return protocol.analysis.hypotheses[hypothesis.mirrors] if hypothesis.mirrors else hypothesis
 
 
 def _targets(

@@ -11,7 +11,7 @@ from analysis.chance import DEFINITIONS, Definition, Scores, Target
 from analysis.dataset import Answers
 from analysis.statistics.adjustment import Correction, adjust
 from analysis.statistics.binomial import Binomial, binomial
-from analysis.statistics.one_sample_t import one_sample_t
+from analysis.statistics.one_sample_t import METHOD, one_sample_t
 from analysis.statistics.samples import Moments, moments, observed
 from analysis.statistics.sign_flip import SignFlip, sign_flip
 from analysis.statistics.t_test import Alternative, TTest
@@ -44,6 +44,14 @@ class AgainstChance:
         """The test's p, or the exact one where the test is undefined."""
         return self.exact.p if self.test.p is None else self.test.p
 
+    @property
+    def t_test(self) -> TTest:
+        """The t-test; undefined where hits are counted."""
+        if isinstance(self.test, TTest):
+            return self.test
+        reason = "no t-test of hits: exact binomial test"
+        return TTest(METHOD, (self.test.n,), self.test.null, self.test.alternative, reason=reason)
+
 
 @dataclass(frozen=True)
 class Recognised:
@@ -74,6 +82,16 @@ class Judging:
     alternative: Alternative
     correction: Correction
     alpha: float
+
+    @property
+    def sides(self) -> str:
+        """One-sided or two-sided."""
+        return "two-sided" if self.alternative == "two-sided" else "one-sided"
+
+    @property
+    def adjustment(self) -> str:
+        """How p-values are adjusted, as an adjective."""
+        return "unadjusted" if self.correction == "none" else f"{self.correction.title()}-adjusted"
 
 
 def recognition(

@@ -1,0 +1,222 @@
+"""Tables for a paper: LaTeX in the form of the published one, and the same numbers as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+
+from analysis.apa import bounded, degrees, interval, number, probability, share
+from analysis.levels import Choices, Compared
+from analysis.plan import Levels, Targets
+
+SPECIAL = {
+    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_",
+    "{": r"\{", "}": r"\}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+    "<": "$<$", ">": "$>$", "−": "$-$", "∞": r"$\infty$", "–": "--", "“": "``", "”": "''",
+}  # fmt: skip
+
+
+def escaped(text: str) -> str:
+    """Text that LaTeX prints as it stands."""
+    return "".join(SPECIAL.get(character, character) for character in text)
+
+
+def confusion_latex(outcome: Levels) -> str:
+    """Normalised confusion matrices of intended and perceived level, in the paper's form, with counts.
+
+    Needs the packages amsmath, booktabs and diagbox. A row whose printed shares do not add up to 1.00 is
+    named in the note.
+    """
+    judged = [(one, one.choices) for one in outcome.results.values() if one.choices is not None]
+    pairs = "|".join(["cc"] * len(judged))
+    rules = ["c|"] * (len(judged) - 1) + ["c"]
+    heads = [
+        rf"\multicolumn{{2}}{{{rule}}}{{$\mathcal{{P}}_{{\text{{{escaped(_label(one))}}}}}$}}"
+        for rule, (one, _) in zip(rules, judged, strict=True)
+    ]
+    arrows = r" & ".join([r"\multicolumn{1}{c}{$\uparrow$} & $\downarrow$"] * len(judged))
+    lines = [
+        r"% packages: amsmath, booktabs, diagbox",
+        r"\begin{table}",
+        r"  \centering",
+        r"  \setlength{\tabcolsep}{3pt}",
+        rf"  \begin{{tabular}}{{c|{pairs}}}",
+        r"    \toprule",
+        f"    & {' & '.join(heads)} \\\\",
+        r"    \midrule",
+        rf"    \diagbox[width=3em, height=2em]{{$I_M$}}{{$I_P$}} & {arrows} \\",
+        r"    \midrule",
+    ]
+    for level in outcome.comparison.levels:
+        own = outcome.comparison.levels.index(level)
+        shares, counts = [], []
+        for _, choices in judged:
+            row = choices.counts[level]
+            shares += [_cell(share(k, sum(row)), bold=place == own) for place, k in enumerate(row)]
+            counts += [rf"$\scriptscriptstyle {k}$" for k in row]
+        lines += [
+            f"    {escaped(level)} & {' & '.join(shares)} \\\\",
+            rf"    $\scriptscriptstyle n$ & {' & '.join(counts)} \\",
+        ]
+    lines += [
+        r"    \bottomrule",
+        r"  \end{tabular}",
+        r"  \caption{Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
+        rf"perceived intensity ($I_P$), with counts. {escaped(confusion_note(outcome))}}}",
+        rf"  \label{{tab:{outcome.part}}}",
+        r"\end{table}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def confusion_note(outcome: Levels) -> str:
+    """N, test, and p per principle, in words."""
+    judging = outcome.judging
+    sizes = sorted(
+        {sum(row) for one in outcome.results.values() if one.choices for row in one.choices.counts.values()}
+    )
+    n = str(sizes[0]) if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+    found = [
+        f"{_label(one)} p {probability(one.verdict.p_adjusted, judging.alpha)}"
+        + (f" ({one.verdict.test})" if one.verdict.note else "")
+        for one in outcome.results.values()
+    ]
+    uneven = [
+        f"{_label(one)}/{level}"
+        for one in outcome.results.values()
+        if one.choices
+        for level, row in one.choices.counts.items()
+        if sum(row) and sum(round(100 * float(share(k, sum(row)))) for k in row) != 100
+    ]
+    return (
+        f"N = {n} per cell; {judging.test}, {judging.sides}, alpha = {bounded(judging.alpha)}, "
+        f"{judging.adjustment}: "
+        + ", ".join(found)
+        + "."
+        + (f" Rounded shares do not add up to 1.00 in {', '.join(uneven)}." if uneven else "")
+    )
+
+
+def confusion_csv(outcome: Levels) -> str:
+    """Counts, shares and tests, one row per principle and level."""
+    head = (
+        "principle", "level", "n", "higher", "lower", "share_higher", "share_ci_low", "share_ci_high",
+        "t", "df", "p", "p_adjusted", "decided_by", "d", "d_ci_low", "d_ci_high", "mcnemar_p_one_sided",
+        "mcnemar_p_mid", "fisher_p", "binomial_p",
+    )  # fmt: skip
+    rows = []
+    for one in outcome.results.values():
+        if one.choices is None:
+            continue
+        for place, (level, (higher, lower)) in enumerate(one.choices.counts.items()):
+            counted = (one.name, level, higher + lower, higher, lower)
+            rows.append(
+                (
+                    *counted,
+                    *_own_share(one.choices, level, place),
+                    *_tested(one),
+                    *_exact(one.choices, level),
+                )
+            )
+    return _csv(head, rows)
+
+
+def targets_csv(outcome: Targets) -> str:
+    """The test of every target, one row per stimulus."""
+    head = (
+        "stimulus", "item", "n", "mean", "sd", "se", "chance", "t", "df", "p", "p_adjusted", "decided_by",
+        "d", "d_ci_low", "d_ci_high", "exact_p", "wilcoxon_z", "wilcoxon_p",
+    )  # fmt: skip
+    rows = []
+    for one in outcome.results.values():
+        test = one.against.t_test
+        d = (test.d, *(test.d_ci95 or (None, None)))
+        summary = (one.summary.n, one.summary.mean, one.summary.sd, one.summary.se)
+        tested = (test.t, test.df, one.against.test.p, one.verdict.p_adjusted, one.verdict.test, *d)
+        exact = (one.against.exact.p, one.wilcoxon.z, one.wilcoxon.p)
+        rows.append((one.stimulus, one.item, *summary, one.against.null, *tested, *exact))
+    return _csv(head, rows)
+
+
+def means_csv(outcome: Targets) -> str:
+    """Mean, SD and SE of every item for every stimulus."""
+    rows = [
+        (stimulus, item, one.n, one.mean, one.sd, one.se)
+        for stimulus, items in outcome.means.items()
+        for item, one in items.items()
+    ]
+    return _csv(("stimulus", "item", "n", "mean", "sd", "se"), rows)
+
+
+def targets_latex(outcome: Targets) -> str:
+    """Mean target ratings and their tests. Needs the package booktabs."""
+    lines = [
+        r"% packages: booktabs",
+        r"\begin{table}",
+        r"  \centering",
+        r"  \begin{tabular}{lrrrrrrr}",
+        r"    \toprule",
+        r"    & $N$ & $M$ & $SD$ & $t$ & $df$ & $p$ & $d$ [95\% CI] \\",
+        r"    \midrule",
+    ]
+    for one in outcome.results.values():
+        test = one.against.t_test
+        p = probability(one.verdict.p_adjusted, outcome.judging.alpha).removeprefix("= ")
+        lines.append(
+            f"    {escaped(one.stimulus.capitalize())} & {one.summary.n} & "
+            f"{_math(number(one.summary.mean))} & {_math(number(one.summary.sd))} & "
+            f"{_math(number(test.t))} & "
+            f"{_math(degrees(test.df))} & {_math(p)} & "
+            f"{_math(number(test.d))} {_math(interval(test.d_ci95))} \\\\"
+        )
+    judging = outcome.judging
+    lines += [
+        r"    \bottomrule",
+        r"  \end{tabular}",
+        rf"  \caption{{Ratings of the intended expression against chance "
+        rf"({escaped(outcome.definition.says)}); {judging.test}, {judging.sides}, "
+        rf"$p$ {judging.adjustment}.}}",
+        rf"  \label{{tab:{outcome.part}}}",
+        r"\end{table}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _math(text: str) -> str:
+    return "--" if text == "–" else f"${text.replace('−', '-').replace('∞', chr(92) + 'infty')}$"
+
+
+def _cell(text: str, *, bold: bool) -> str:
+    return rf"$\scriptstyle\mathbf{{{text}}}$" if bold else rf"$\scriptstyle {text}$"
+
+
+def _label(one: Compared) -> str:
+    return one.name.capitalize()
+
+
+def _own_share(choices: Choices, level: str, place: int) -> tuple[float | None, float | None, float | None]:
+    """Share of "higher" with its Wilson interval; the binomial test of the low level counts "lower"."""
+    test = choices.binomial[level]
+    if test.estimate is None or test.wilson_ci95 is None:
+        return None, None, None
+    low, high = test.wilson_ci95
+    return (test.estimate, low, high) if place == 0 else (1 - test.estimate, 1 - high, 1 - low)
+
+
+def _tested(one: Compared) -> tuple[object, ...]:
+    test, verdict = one.student, one.verdict
+    return (test.t, test.df, test.p, verdict.p_adjusted, verdict.test, test.d, *(test.d_ci95 or (None, None)))
+
+
+def _exact(choices: Choices, level: str) -> tuple[object, ...]:
+    test = choices.mcnemar
+    return test.p_one_sided, test.p_mid, choices.fisher.p, choices.binomial[level].p
+
+
+def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    file = io.StringIO(newline="")
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows(["" if value is None else value for value in row] for row in rows)
+    return file.getvalue()
