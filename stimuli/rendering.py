@@ -9,7 +9,6 @@ shadows or reflects, every frame is drawn in full.
 
 from __future__ import annotations
 
-import ctypes
 import os
 from collections.abc import Mapping
 from importlib import import_module
@@ -158,7 +157,5 @@ def open_context(width: int, height: int) -> Any:
 
 def gl_renderer() -> str:
     """What draws: the graphics card's name, or llvmpipe where the processor does it."""
-    get = ctypes.CDLL("libOpenGL.so.0").glGetString
-    get.restype, get.argtypes = ctypes.c_char_p, [ctypes.c_uint]
-    name: bytes = get(0x1F01) or b"unknown"  # GL_RENDERER
-    return name.decode()
+    name: bytes | None = import_module("OpenGL.GL").glGetString(0x1F01)  # GL_RENDERER
+    return name.decode() if name else "unknown"

@@ -1,0 +1,121 @@
+"""Can this machine draw and write clips? Each thing is tried, and each lack says what to do."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+State = Literal["good", "warning", "bad"]
+
+PACKAGES = {
+    "egl": "apt-get install --no-install-recommends libegl1 libopengl0 libgl1-mesa-dri",
+    "osmesa": "apt-get install --no-install-recommends libosmesa6 libopengl0",
+}
+SOFTWARE_RENDERERS = ("llvmpipe", "softpipe", "swrast")
+NEEDED_MB = 500  # a study of 24 clips takes some 20 MB; the rest is for answers and reports
+PROBE = """
+import json, os
+from stimuli.rendering import gl_renderer, open_context
+context = open_context(64, 64)
+print(json.dumps(gl_renderer()))
+context.free()
+"""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One thing examined: what it is, what was found, and what would help."""
+
+    state: State
+    what: str
+    found: str
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.what}: {self.found}" + (f"\n    {self.remedy}" if self.remedy else "")
+
+
+@dataclass(frozen=True)
+class Report:
+    """Everything examined."""
+
+    lines: tuple[Line, ...]
+
+    @property
+    def good(self) -> bool:
+        """Whether clips can be made here, be it slowly."""
+        return all(line.state != "bad" for line in self.lines)
+
+    def __str__(self) -> str:
+        return "\n".join(f"{line.state:8}{line}" for line in self.lines)
+
+
+def examine(folder: Path | None = None, environment: Mapping[str, str] | None = None) -> Report:
+    """Try drawing through EGL and OSMesa, encoding and free disk space; `folder` is where clips would go."""
+    env = dict(os.environ if environment is None else environment)
+    return Report((*_drawing(env), _encoder(), _disk(folder or Path.cwd())))
+
+
+def _drawing(env: Mapping[str, str]) -> list[Line]:
+    chosen = env.get("MUJOCO_GL", "")
+    if chosen not in ("", *PACKAGES):
+        remedy = "Unset MUJOCO_GL, or set it to egl or osmesa."
+        return [
+            Line("bad", "drawing", f"MUJOCO_GL is {chosen!r}, which cannot draw without a screen", remedy)
+        ]
+    tried = {backend: _probe(backend, env) for backend in ([chosen] if chosen else PACKAGES)}
+    works = {backend: name for backend, (name, _) in tried.items() if name}
+    if not works:
+        return [
+            Line("bad", f"drawing through {backend}", problem, f"On Debian or Ubuntu: {PACKAGES[backend]}")
+            for backend, (_, problem) in tried.items()
+        ]
+    backend, name = next(iter(works.items()))
+    if any(word in name.lower() for word in SOFTWARE_RENDERERS):
+        remedy = (
+            "Works; a clip of five seconds takes about ten. A graphics card and its driver would be faster."
+        )
+        return [Line("warning", f"drawing through {backend}", f"in software, by {name}", remedy)]
+    return [Line("good", f"drawing through {backend}", name)]
+
+
+def _probe(backend: str, env: Mapping[str, str]) -> tuple[str, str]:
+    """The renderer's name, or why there is none. In its own process: a broken driver may take it along."""
+    env = {**env, "MUJOCO_GL": backend, "PYOPENGL_PLATFORM": backend}
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", PROBE], env=env, capture_output=True, text=True, timeout=60, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return "", "no answer within a minute: the driver hangs"
+    if done.returncode == 0:
+        return str(json.loads(done.stdout.splitlines()[-1])), ""
+    if done.returncode < 0:
+        return "", f"the driver crashed (signal {-done.returncode})"
+    last = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "no message"
+    return "", last.rpartition("Tried ")[2]
+
+
+def _encoder() -> Line:
+    import av
+
+    if "libx264" in av.codecs_available:
+        return Line("good", "video", f"H.264 by libx264 in PyAV {av.__version__}: plays in every browser")
+    return Line(
+        "bad", "video", f"PyAV {av.__version__} has no libx264", "Install PyAV from its wheel: pip install av"
+    )
+
+
+def _disk(folder: Path) -> Line:
+    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    free = shutil.disk_usage(there).free // 2**20
+    if free < NEEDED_MB:
+        return Line("bad", f"disk at {there}", f"{free} MB free", f"Free at least {NEEDED_MB} MB.")
+    return Line("good", f"disk at {there}", f"{free / 1024:.1f} GB free")
