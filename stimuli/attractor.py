@@ -5,6 +5,7 @@ Positions are offsets from the start; time is counted in shares of the duration.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -15,14 +16,33 @@ from stimuli.trajectory import FloatArray, IndexArray
 _RECOVERY = 0.05  # of the duration, in which a bent clock finds back to an even pace after the end
 
 
-def levels(course: Course) -> list[IndexArray]:
-    """Columns of joints that can be carried out at once: those without sources, then those they drive, …"""
-    depth = np.zeros(len(course.joints), dtype=np.int64)
+@dataclass(frozen=True)
+class Group:
+    """Joints that can be carried out at once."""
+
+    depth: int  # of their sources' sources: 0 where no other joint acts on them
+    gain: float  # in Anticipation's window
+    mirror: float
+    columns: IndexArray
+
+    @property
+    def anticipates(self) -> bool:
+        """Whether these joints move differently in the window."""
+        return (self.gain, self.mirror) != (1.0, 1.0)
+
+
+def groups(course: Course) -> list[Group]:
+    """All joints in groups that move alike, sources before their targets."""
+    d = len(course.joints)
+    depth = np.zeros(d, dtype=np.int64)
     if course.is_coupled:
-        depends = (course.displaced != 0) | (course.dragging != 0)
+        acts = (course.displaced != 0) | (course.dragging != 0)
         for _ in course.joints:
-            depth = np.max(np.where(depends, depth + 1, 0), axis=1, initial=0)
-    return [np.flatnonzero(depth == at) for at in range(int(depth.max()) + 1)]
+            depth = np.max(np.where(acts, depth + 1, 0), axis=1, initial=0)
+    gain = np.ones(d) if course.gain is None else course.gain
+    mirror = np.ones(d) if course.mirror is None else course.mirror
+    kinds = list(zip(depth.tolist(), gain.tolist(), mirror.tolist(), strict=True))
+    return [Group(*kind, np.flatnonzero([kind == other for other in kinds])) for kind in sorted(set(kinds))]
 
 
 def attractor(course: Course, shares: FloatArray) -> FloatArray:
@@ -45,14 +65,14 @@ def filtered_goal(course: Course, shares: FloatArray) -> FloatArray:
 
 def phase(course: Course, shares: FloatArray) -> FloatArray:
     """The phase x at these shares of time: from 1 down to 0, then 0."""
-    gone = np.clip(clock(course, shares), 0.0, 1.0)
+    gone = np.minimum(clock(course, shares), 1.0)
     if course.progress is not None:
-        gone = np.clip(course.progress.gone(gone), 0.0, 1.0)
+        gone = np.minimum(np.maximum(course.progress.gone(gone), 0.0), 1.0)
     return 1.0 - gone
 
 
 def clock(course: Course, shares: FloatArray) -> FloatArray:
-    """What the course's clock shows at these shares of time; after the end it goes on, soon at an even pace."""
+    """What the course's clock shows at these shares of time; after the end it soon goes on evenly."""
     if course.clock is None:
         return shares
     over = np.maximum(shares - 1.0, 0.0)
@@ -87,14 +107,18 @@ def basis(x: FloatArray, n_weights: int) -> FloatArray:
     Centres lie at equal distances in phase, hence in time, from 1 down to 0; each Gaussian is worth exp(-1)
     at the centres of its neighbours.
     """
-    return _basis(x.tobytes(), n_weights)
+    return _kept(x.tobytes(), n_weights) if len(x) > 1 else _basis(x, n_weights)
 
 
 @lru_cache(maxsize=32)
-def _basis(x_bytes: bytes, n_weights: int) -> FloatArray:
-    """`basis`, kept: most rollouts of a study share their phases."""
-    x = np.frombuffer(x_bytes)[:, None]
-    bumps = np.exp(-(((x - np.linspace(1.0, 0.0, n_weights)) * (n_weights - 1)) ** 2))
-    made: FloatArray = bumps * (x / bumps.sum(axis=1, keepdims=True))
+def _kept(x_bytes: bytes, n_weights: int) -> FloatArray:
+    """The basis of a whole motion, kept: most rollouts of a study share their phases."""
+    made = _basis(np.frombuffer(x_bytes), n_weights)
     made.flags.writeable = False
+    return made
+
+
+def _basis(x: FloatArray, n_weights: int) -> FloatArray:
+    bumps = np.exp(-((x[:, None] * (n_weights - 1) - np.arange(n_weights - 1.0, -1.0, -1.0)) ** 2))
+    made: FloatArray = bumps * (x / bumps.sum(axis=1))[:, None]
     return made

@@ -70,8 +70,8 @@ def _extents(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
     """How far the hands get, in m: left to right, up and down, forth and back, and off the robot's axis."""
     if not robot.hands:
         return {}
-    positions = {name: trajectory.joint(name) for name in trajectory.joints}
-    poses = link_poses(robot, positions)
+    positions = dict(robot.home) | {name: trajectory.joint(name) for name in trajectory.joints}
+    poses = link_poses(robot.joints, positions)
     hands = np.stack(
         [np.broadcast_to(poses[hand], (len(trajectory.times), 4, 4))[:, :3, 3] for hand in robot.hands]
     )

@@ -6,53 +6,51 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from stimuli.robots.model import Joint, Robot, Vector
+from stimuli.robots.model import Joint, Vector
 from stimuli.trajectory import FloatArray
 
 
-def link_poses(robot: Robot, positions: Mapping[str, float | FloatArray]) -> dict[str, FloatArray]:
-    """Pose of every link in the frame of the robot's root, as homogeneous matrices (…, 4, 4).
+def link_poses(
+    joints: tuple[Joint, ...], positions: Mapping[str, float | FloatArray]
+) -> dict[str, FloatArray]:
+    """Pose of every link in the frame of the root, as homogeneous matrices (…, 4, 4).
 
-    `positions` gives numbers, or arrays of one shape for many poses at once; joints not named are at home.
+    `positions` gives every joint's as a number, or as an array of one shape for many poses at once.
     """
     poses: dict[str, FloatArray] = {}
-    joints = {joint.child: joint for joint in robot.joints if joint.kind != "dimensionless"}
+    above = {joint.child: joint for joint in joints if joint.kind != "dimensionless"}
 
     def pose(link: str) -> FloatArray:
-        if link not in joints:
+        if link not in above:
             return np.eye(4)
         if link not in poses:
-            joint = joints[link]
-            poses[link] = (
-                pose(joint.parent)
-                @ placed(joint)
-                @ moved(joint, positions.get(joint.name, robot.home[joint.name]))
-            )
+            joint = above[link]
+            poses[link] = pose(joint.parent) @ placed(joint) @ moved(joint, positions[joint.name])
         return poses[link]
 
-    for link in joints:
+    for link in above:
         pose(link)
     return poses
 
 
-def axes(robot: Robot, positions: Mapping[str, float]) -> dict[str, FloatArray]:
-    """Direction (3,) of each joint's axis in the frame of the robot's root; dimensionless ones have none."""
-    poses = link_poses(robot, positions)
+def axes(joints: tuple[Joint, ...], positions: Mapping[str, float]) -> dict[str, FloatArray]:
+    """Direction (3,) of each joint's axis in the root's frame; dimensionless ones have none."""
+    poses = link_poses(joints, positions)
     return {
         joint.name: (poses.get(joint.parent, np.eye(4)) @ placed(joint))[:3, :3] @ np.array(joint.axis)
-        for joint in robot.joints
+        for joint in joints
         if joint.kind != "dimensionless"
     }
 
 
-def chain(robot: Robot, link: str) -> list[Joint]:
+def chain(joints: tuple[Joint, ...], link: str) -> list[Joint]:
     """Joints from the root to a link."""
-    above = {joint.child: joint for joint in robot.joints}
-    joints: list[Joint] = []
+    above = {joint.child: joint for joint in joints}
+    path: list[Joint] = []
     while link in above:
-        joints.append(above[link])
+        path.append(above[link])
         link = above[link].parent
-    return joints[::-1]
+    return path[::-1]
 
 
 def placed(joint: Joint) -> FloatArray:

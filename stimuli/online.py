@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from stimuli.attractor import attractor, clock, filtered_goal, levels, pace
+from stimuli.attractor import Group, attractor, clock, filtered_goal, groups, pace
 from stimuli.course import Course
 from stimuli.spring import decay, step_of
 from stimuli.trajectory import FloatArray
@@ -19,8 +19,8 @@ class Runner:
     """A motion under way. Its steps are those of `stimuli.rollout.integrate`.
 
     `change` swaps the course without a jump in position or velocity: the state and the share of time gone by
-    are kept, and the strength of Secondary Action, which shows without acting on the state, follows as a
-    spring would.
+    are kept, and the strength of Secondary Action, which shows without acting on the state, follows as
+    springs do.
     """
 
     def __init__(
@@ -28,12 +28,14 @@ class Runner:
     ) -> None:
         """At the course's start and at rest, unless it comes from elsewhere, as in a sequence of motions."""
         d = len(course.joints)
-        self.course = course
         self.share = 0.0  # of the duration gone by
         self._motion = np.zeros((2, d))  # offsets from the start; velocities per share of the clock
-        self._carried_off = np.zeros(
+        self._pending = np.zeros(
             (2, d, d)
-        )  # how far the strength of Secondary Action still is from the course's
+        )  # change of Secondary Action's strength still to come, and its rate
+        self._carries = False
+        self._pull = np.zeros(d)  # attractors now
+        self._set_out(course)
         if positions is not None:
             self._motion[0] = positions - course.start
         if velocities is not None:
@@ -42,7 +44,9 @@ class Runner:
     @property
     def positions(self) -> FloatArray:
         """Positions shown now, (d,)."""
-        shown: FloatArray = self.course.start + self._motion[0] + self._carried @ self.velocities
+        shown: FloatArray = self.course.start + self._motion[0]
+        if self._carries:
+            shown += (self.course.carrying + self._pending[0]) @ self.velocities
         return shown
 
     @property
@@ -55,29 +59,28 @@ class Runner:
         """Go on for dt_s, first setting new goals for the joints named; returns the positions shown, (d,)."""
         if goal:
             self.head_for(goal)
-        course = self.course
-        shares = np.array([self.share, self.share + dt_s / course.tau_s])
-        pull = attractor(course, shares)  # (2, d)
-        ticks = clock(course, shares)
-        gains = np.ones(len(course.joints))
-        if ticks[0] < course.window - ROUNDING:
-            gains = gains if course.gain is None else course.gain
-            pull = pull if course.mirror is None else pull * course.mirror
-        self._motion = self._moved(pull, gains, float(ticks[1] - ticks[0]))
-        self._carried_off = np.tensordot(
-            decay(course.rate, float(shares[1] - shares[0])), self._carried_off, axes=1
-        )
-        self.share = float(shares[1])
+        course, before = self.course, self.share
+        h = dt_s / course.tau_s
+        if self._carries:
+            self._pending = np.tensordot(decay(course.rate, h), self._pending, axes=1)
+        self.share += h
+        pull, self._pull = self._pull, attractor(course, np.array([self.share]))[0]
+        now = before
+        if course.clock is not None:
+            now, then = clock(course, np.array([before, self.share])).tolist()
+            h = then - now
+        self._move(pull, h, now < course.window - ROUNDING)
         return self.positions
 
     def change(self, course: Course) -> None:
         """Go on along another course of the same joints."""
-        self._carried_off[0] = self._carried - course.carrying
-        self._carried_off[1] *= course.tau_s / self.course.tau_s
-        self._motion[0] += self.course.start - course.start
-        quicker = pace(self.course, self.share) / max(pace(course, self.share), ROUNDING)
-        self._motion[1] *= course.tau_s / self.course.tau_s * quicker
-        self.course = course
+        former, share = self.course, self.share
+        slower = course.tau_s / former.tau_s
+        self._pending[0] += former.carrying - course.carrying
+        self._pending[1] *= slower
+        self._motion[0] += former.start - course.start
+        self._motion[1] *= slower * pace(former, share) / max(pace(course, share), ROUNDING)
+        self._set_out(course)
 
     def head_for(self, goal: Mapping[str, float]) -> None:
         """Go on to other goals of the joints named, gliding there if the course's goals do."""
@@ -88,30 +91,34 @@ class Runner:
             here = filtered_goal(self.course, np.array([self.share]))[0]
             self.change(replace(self.course, goal=wanted, former_goal=here, goal_since=self.share))
 
-    @property
-    def _carried(self) -> FloatArray:
-        """Strength of Secondary Action now, (d, d) s."""
-        strength: FloatArray = self.course.carrying + self._carried_off[0]
-        return strength
+    def _set_out(self, course: Course) -> None:
+        self.course = course
+        self._groups = groups(course)
+        self._pull = attractor(course, np.array([self.share]))[0]
+        self._carries = course.carried is not None or bool(self._pending.any())
 
-    def _moved(self, pull: FloatArray, gains: FloatArray, h: float) -> FloatArray:
-        """The state (2, d) after a step of h shares; `pull` (2, d) are the attractors before and after it."""
-        course = self.course
-        states = np.stack([self._motion, np.zeros_like(self._motion)])  # (before and after, y and y', d)
-        for level in levels(course):
-            shift = states @ course.displaced[level].T
-            chased = (
-                pull[:, level] + shift[:, 0] + states[:, 1] @ (2 / course.rate * course.dragging[level].T)
-            )
-            state = states[0][:, level] + shift[0]
-            for value in np.unique(gains[level]):
-                same = np.flatnonzero(gains[level] == value)
-                step = step_of(course.scheme, course.rate, h, float(value))
-                made = step.across @ state[:, same]
-                made += np.outer(step.before, chased[0, same]) + np.outer(step.after, chased[1, same])
-                states[1][:, level[same]] = made - shift[1][:, same]
-        after: FloatArray = states[1]
-        return after
+    def _move(self, pull: FloatArray, h: float, anticipating: bool) -> None:
+        """Take a step of h shares; the attractors are `pull` before and `self._pull` after it, (d,) each."""
+        old, new = self._motion, np.empty_like(self._motion)
+        for group in self._groups:
+            gain, mirror = (group.gain, group.mirror) if anticipating else (1.0, 1.0)
+            step = step_of(self.course.scheme, self.course.rate, h, gain)
+            own = slice(None) if len(self._groups) == 1 else group.columns
+            state, begin, end = old[:, own], mirror * pull[own], mirror * self._pull[own]
+            if group.depth:
+                shift, begin_push = self._from_sources(group, old)
+                shift_after, end_push = self._from_sources(group, new)
+                state, begin, end = state + shift, begin + begin_push, end + end_push
+            made = step.across @ state + step.before[:, None] * begin + step.after[:, None] * end
+            new[:, own] = made - shift_after if group.depth else made
+        self._motion = new
+
+    def _from_sources(self, group: Group, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """What sources in this state add to their targets' states, (2, m), and attractors, (m,)."""
+        sources = self.course.displaced[group.columns]
+        drag = 2 / self.course.rate * self.course.dragging[group.columns]
+        shift: FloatArray = motion @ sources.T
+        return shift, shift[0] + drag @ motion[1]
 
 
 def run(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArray]:

@@ -8,12 +8,13 @@ where the axes point the same way and -1 where they are opposed. A robot file ma
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from stimuli.errors import InputError
 from stimuli.kinematics import axes, chain
-from stimuli.robots.model import Relation, Robot
+from stimuli.robots.model import Joint, Relation, Robot
 
 ALIGNED_RAD = math.radians(15.0)  # largest angle between axes that count as parallel
 
@@ -27,10 +28,17 @@ def relations_of(robot: Robot, joints: tuple[str, ...]) -> tuple[Relation, ...]:
 
 def found(robot: Robot, aligned_rad: float = ALIGNED_RAD) -> tuple[Relation, ...]:
     """The relations that the robot's tree suggests."""
-    directions = axes(robot, robot.home)
+    return _found(robot.joints, tuple(sorted(robot.home.items())), aligned_rad)
+
+
+@lru_cache(maxsize=32)
+def _found(
+    joints: tuple[Joint, ...], home: tuple[tuple[str, float], ...], aligned_rad: float
+) -> tuple[Relation, ...]:
+    directions = axes(joints, dict(home))
     relations = []
-    for target in robot.joints:
-        for source in reversed(chain(robot, target.parent)):
+    for target in joints:
+        for source in reversed(chain(joints, target.parent)):
             if target.name not in directions or source.name not in directions or source.kind != target.kind:
                 continue
             cosine = float(np.dot(directions[source.name], directions[target.name]))

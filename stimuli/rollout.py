@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from stimuli.attractor import attractor, levels
+from stimuli.attractor import attractor, groups
 from stimuli.course import Course
 from stimuli.online import ROUNDING, run
 from stimuli.spring import respond, step_of
@@ -51,33 +51,24 @@ def integrate(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArr
         return run(course, dt_s, n)
     h = dt_s / course.tau_s
     shares = sampled(n, h)
+    anticipating = int(np.count_nonzero(shares[:-1] < course.window - ROUNDING))  # steps
     pull = attractor(course, shares)  # (n + 1, d)
     motion = np.zeros((2, *pull.shape))
-    border = int(np.count_nonzero(shares[:-1] < course.window - ROUNDING))
-    for span, gain, mirror in (
-        (slice(0, border + 1), course.gain, course.mirror),
-        (slice(border, n + 1), None, None),
-    ):
-        if span.stop - span.start < 2:
-            continue
-        _fill(motion[:, span], pull[span] if mirror is None else pull[span] * mirror, gain, course, h)
+    for group in groups(course):
+        made, own = motion[:, :, group.columns], pull[:, group.columns]
+        pushed, shift = 0.0 * own, 0.0 * made
+        if group.depth:
+            shift = motion @ course.displaced[group.columns].T
+            pushed = shift[0] + motion[1] @ (2 / course.rate * course.dragging[group.columns].T)
+        border = anticipating if group.anticipates else 0
+        for part, gain, mirror in (
+            (slice(0, border + 1), group.gain, group.mirror),
+            (slice(border, n + 1), 1.0, 1.0),
+        ):
+            step = step_of(course.scheme, course.rate, h, gain)
+            made[:, part] = respond(mirror * own[part] + pushed[part], made[:, part.start], step)
+        motion[:, :, group.columns] = made - shift
     positions, velocities = motion[0], motion[1] / course.tau_s
     if course.carried is not None:
         positions = positions + velocities @ course.carried.T
     return course.start + positions, velocities
-
-
-def _fill(motion: FloatArray, pull: FloatArray, gain: FloatArray | None, course: Course, h: float) -> None:
-    """Fill in `motion` (2, n + 1, d) from its first state on: springs with attractors `pull` (n + 1, d)."""
-    gains = np.ones(len(course.joints)) if gain is None else gain
-    for level in levels(course):
-        chased, shift = pull[:, level], None
-        if course.is_coupled:
-            shift = motion @ course.displaced[level].T  # (2, n + 1, joints of this level)
-            chased = chased + shift[0] + motion[1] @ (2 / course.rate * course.dragging[level].T)
-        for value in np.unique(gains[level]):
-            same = np.flatnonzero(gains[level] == value)
-            columns = level[same]
-            state = motion[:, 0, columns] + (0 if shift is None else shift[:, 0, same])
-            made = respond(chased[:, same], state, step_of(course.scheme, course.rate, h, float(value)))
-            motion[:, :, columns] = made - (0 if shift is None else shift[:, :, same])

@@ -78,6 +78,8 @@ def respond(chased: FloatArray, state: FloatArray, step: Step) -> FloatArray:
     The recursion x_{k+1} = A x_k + b_k as one filter for positions and velocities alike: by Cayley and
     Hamilton x_{k+2} = tr(A) x_{k+1} - det(A) x_k + b_{k+1} + (A - tr(A)) b_k.
     """
+    if len(chased) == 1:
+        return state[:, None]
     (a, b), (c, d) = step.across
     driven = (
         step.before[:, None, None] * chased[:-1] + step.after[:, None, None] * chased[1:]

@@ -33,6 +33,7 @@ class Ant(Principle):
     kind: ClassVar[str] = "ant"
     title: ClassVar[str] = "Anticipation"
     stage: ClassVar[Stage] = Stage.ACCELERATION
+    strong: ClassVar[float] = 0.4
 
     intensity: float = Field(0.0, ge=0, le=100)
     window: float = Field(0.075, gt=0, lt=1)
@@ -48,8 +49,8 @@ class Ant(Principle):
             return replace(course, window=self.window, mirror=factor)
         if self.growth(course.alpha) > LARGEST_GROWTH:
             raise InputError(
-                f"ant.intensity: {self.intensity:g} in a window of {self.window:g} makes the motion "
-                f"grow {self.growth(course.alpha):.3g}-fold before it starts, {LARGEST_GROWTH:g}-fold being the limit. "
+                f"ant.intensity: {self.intensity:g} in a window of {self.window:g} makes the motion grow "
+                f"{self.growth(course.alpha):.3g}-fold before it starts, the limit being {LARGEST_GROWTH:g}. "
                 f"Take at most {self.largest_intensity(course.alpha):.3g}, a shorter window, or form: mirror"
             )
         return replace(course, window=self.window, gain=factor)

@@ -27,6 +27,7 @@ class Arc(Principle):
     kind: ClassVar[str] = "arc"
     title: ClassVar[str] = "Arc"
     stage: ClassVar[Stage] = Stage.WEIGHTS
+    strong: ClassVar[float] = 5.0
 
     intensity: float = Field(0.0, ge=-100, le=100)
     unit: Literal["weights", "duration"] = "weights"

@@ -24,6 +24,7 @@ class Exa(Principle):
     title: ClassVar[str] = "Exaggeration"
     stage: ClassVar[Stage] = Stage.FORCING
     neutral: ClassVar[float] = 1.0
+    strong: ClassVar[float] = 1.5
 
     intensity: float = Field(1.0, ge=-100, le=100)
     around: Literal["goal", "straight"] = "goal"

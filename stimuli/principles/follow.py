@@ -21,6 +21,7 @@ class Follow(Principle):
     kind: ClassVar[str] = "follow"
     title: ClassVar[str] = "Follow Through"
     stage: ClassVar[Stage] = Stage.ACCELERATION
+    strong: ClassVar[float] = 3.0
 
     intensity: float = Field(0.0, ge=0, le=100)
 

@@ -12,6 +12,7 @@ from pydantic import Field, field_validator, model_validator
 from stimuli.course import Course
 from stimuli.errors import InputError
 from stimuli.principles.principle import Principle, Stage
+from stimuli.robots.model import Robot
 from stimuli.units import POSITION, in_base_unit
 
 
@@ -26,10 +27,17 @@ class Goal(Principle):
     title: ClassVar[str] = "Interactive Goal"
     stage: ClassVar[Stage] = Stage.GOAL
     neutral: ClassVar[float] = 0.0
+    strong: ClassVar[float] = 1.0
 
     intensity: float = Field(1.0, ge=0, le=1)  # share of the way from the demonstrated goal to the new one
     joints: dict[str, float] = Field(default_factory=dict)
     lag_s: float = Field(0.0, ge=0, le=60)
+
+    @classmethod
+    def example(cls, robot: Robot) -> Goal:
+        """The first joint heads for three quarters of its range."""
+        joint = robot.joints[0]
+        return cls(intensity=cls.strong, joints={joint.name: joint.lower + 0.75 * joint.range})
 
     @model_validator(mode="before")
     @classmethod

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import ClassVar
+from typing import ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict
 
 from stimuli.course import Course
+from stimuli.robots.model import Robot
 
 
 class Stage(IntEnum):
@@ -26,7 +27,7 @@ class Principle(BaseModel):
     """One animation principle with its parameters: a function from course to course.
 
     A kind has a short name for protocols (`kind`), a `title`, a `stage`, and a `neutral` intensity at which
-    it changes nothing, bit for bit.
+    it changes nothing, bit for bit; at its `strong` one the principle is plain to see.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
@@ -35,8 +36,14 @@ class Principle(BaseModel):
     title: ClassVar[str]
     stage: ClassVar[Stage]
     neutral: ClassVar[float] = 0.0
+    strong: ClassVar[float]
 
     intensity: float
+
+    @classmethod
+    def example(cls, robot: Robot) -> Self:  # noqa: ARG003
+        """This principle, plain to see on that robot."""
+        return cls(intensity=cls.strong)
 
     def apply(self, course: Course) -> Course:
         """The course as this principle changes it; the very same course where the principle is neutral."""

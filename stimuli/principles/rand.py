@@ -24,6 +24,7 @@ class Rand(Principle):
     kind: ClassVar[str] = "rand"
     title: ClassVar[str] = "Randomization"
     stage: ClassVar[Stage] = Stage.WEIGHTS
+    strong: ClassVar[float] = 0.3
 
     intensity: float = Field(0.0, ge=0, le=100)
     seed: int = Field(0, ge=0)

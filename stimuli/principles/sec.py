@@ -25,6 +25,7 @@ class Sec(Principle):
     kind: ClassVar[str] = "sec"
     title: ClassVar[str] = "Secondary Action"
     stage: ClassVar[Stage] = Stage.POSITION
+    strong: ClassVar[float] = 0.15
 
     intensity: float = Field(0.0, ge=0, le=100)
     form: Literal["output", "state"] = "output"

@@ -27,6 +27,7 @@ class Slow(Principle):
     kind: ClassVar[str] = "slow"
     title: ClassVar[str] = "Slow In and Slow Out"
     stage: ClassVar[Stage] = Stage.PHASE
+    strong: ClassVar[float] = 1.0
 
     intensity: float = Field(0.0, ge=0, le=1)
     steepness: float = Field(10.0, gt=0, le=100)

@@ -31,6 +31,7 @@ class Time(Principle):
     title: ClassVar[str] = "Timing"
     stage: ClassVar[Stage] = Stage.DURATION
     neutral: ClassVar[float] = 1.0
+    strong: ClassVar[float] = 0.75
 
     intensity: float = Field(1.0, gt=0, le=100)
     progression: tuple[Speed, ...] = ()
