@@ -9,21 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from analysis.published import HIGHER, N
 from study.protocol import Protocol, load_protocol
 
 PAPER = Path(__file__).parents[2] / "protocols" / "hielscher2025"
 EMOTIONS = ("joy", "sadness", "anger", "fear", "shame", "hurry")
-N = 34
-# Of 34 participants, how many called the high and the low motion "higher": the published table's proportions.
-HIGHER = {
-    "arc": (32, 0),
-    "ant": (27, 9),
-    "time": (34, 0),
-    "exa": (34, 0),
-    "sec": (32, 1),
-    "follow": (19, 10),
-}
-
 Row = tuple[str, str, str, str]
 Write = Callable[..., Path]
 
@@ -44,7 +34,7 @@ def choices(n: int = N) -> list[Row]:
     return [
         (f"P{p:02}", f"{principle}_{level}", "intensity", "higher" if p < k else "lower")
         for principle, counts in HIGHER.items()
-        for level, k in zip(("high", "low"), counts, strict=True)
+        for level, k in counts.items()
         for p in range(n)
     ]
 

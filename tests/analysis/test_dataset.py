@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from analysis.dataset import read_responses
+from analysis.published import HIGHER
 from analysis.rows import ResponsesError
 from study.protocol import Protocol
-from tests.analysis.conftest import EMOTIONS, HIGHER, Write, choices, ratings
+from tests.analysis.conftest import EMOTIONS, Write, choices, ratings
 
 
 def test_answers_stand_where_the_protocol_says_whatever_the_order_of_rows(
@@ -42,9 +43,9 @@ def test_levels_are_told_apart_by_name_not_by_appearance(paper: Protocol, write:
     for rows in (choices(), choices()[::-1]):
         answers = read_responses(write([*ratings(), *rows]), paper).answers("intensity")
         chose = answers.chose("higher")
-        for principle, (high, low) in HIGHER.items():
-            assert np.nansum(chose[:, answers.stimuli.index(f"{principle}_high")]) == high
-            assert np.nansum(chose[:, answers.stimuli.index(f"{principle}_low")]) == low
+        for principle, counts in HIGHER.items():
+            assert np.nansum(chose[:, answers.stimuli.index(f"{principle}_high")]) == counts["high"]
+            assert np.nansum(chose[:, answers.stimuli.index(f"{principle}_low")]) == counts["low"]
 
 
 def test_empty_and_absent_answers_are_missing(paper: Protocol, write: Write) -> None:
