@@ -12,12 +12,12 @@ from stimuli.scene import PRESETS, Outline, places, pose, studio
 from stimuli.trajectory import FloatArray, Trajectory
 
 MARGIN = 0.03  # of the picture's height that stays free
-MOVES_M = 0.015  # a part none of whose points moves farther may be cut by the edge
+MOVES_M = 0.015  # a place on the robot that moves less may lie outside
 RATE_HZ = 15
 
 
 def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, height: int) -> str:
-    """The closest preset in which no part that moves leaves the frame; the widest where all fail."""
+    """The closest preset in which nothing that moves leaves the frame; the widest where all fail."""
     fitting = list(PRESETS)[:-1]
     studios: dict[str, tuple[mujoco.MjModel, Outline]] = {}
     for robot, trajectory in motions:
@@ -34,7 +34,7 @@ def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, h
 
 
 def _swept(model: mujoco.MjModel, outline: Outline, robot: Robot, trajectory: Trajectory) -> FloatArray:
-    """All places, shape (n, 3), of the points of parts that move."""
+    """Where the points of the robot that move come, shape (n, 3)."""
     times = np.arange(trajectory.times[0], trajectory.times[-1] + 1 / RATE_HZ, 1 / RATE_HZ)
     data = mujoco.MjData(model)
     taken = []
@@ -43,8 +43,7 @@ def _swept(model: mujoco.MjModel, outline: Outline, robot: Robot, trajectory: Tr
         taken.append(outline.placed(places(data)))
     points = np.stack(taken)  # (times, points, 3)
     moves = np.linalg.norm(points - points[0], axis=-1).max(axis=0) > MOVES_M
-    moving = np.isin(outline.geoms, outline.geoms[moves])
-    return points[:, moving].reshape(-1, 3)
+    return points[:, moves].reshape(-1, 3)
 
 
 def _inside(points: FloatArray, model: mujoco.MjModel, name: str, aspect: float) -> bool:
