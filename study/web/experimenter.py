@@ -60,7 +60,8 @@ def login(request: Request, password: Annotated[str, Form(max_length=200)]) -> R
     with _one_try_at_a_time:
         right = site.credentials.is_password(password)
     if not right:
-        fault = load_language(language).text("This is not the password.")
+        say = load_language(language).text
+        fault = say("This is not the password.")
         return render(request, "login.html", language=language, fault=fault, status=401)
     answer = RedirectResponse(request.app.url_path_for("experimenter"), status_code=303)
     answer.set_cookie(
@@ -143,7 +144,9 @@ def _overview(request: Request, *, links: list[str]) -> Response:
         planned=site.protocol.participants.planned,
         links=links,
         most_links=MOST_LINKS,
-        moment=lambda when: format_datetime(when.astimezone(), "short", locale=language.replace("-", "_")),
+        moment=lambda when: format_datetime(
+            when.astimezone(), "d MMM, HH:mm", locale=language.replace("-", "_")
+        ),
         form_token=site.credentials.form_token(require_login(request)),
     )
 

@@ -277,7 +277,7 @@ PAGE_TEXTS = {
     "watched": "Watched",
     "incomplete": "The video was not played completely. Please watch it again.",
     "press": "Please press the button again.",
-    "missing": "Please answer every row.",
+    "missing": "Please answer every question.",
     "offline": "There is no connection at the moment. Your answer is kept on this device and will be sent as "
     "soon as possible. Please leave this page open.",
     "failed": "The video could not be played. Please try again; if it keeps failing, tell the experimenter.",

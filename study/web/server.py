@@ -24,7 +24,6 @@ from study.web.site import Site, clips_of
 
 if TYPE_CHECKING:
     from stimuli.manifest import Manifest
-
     from study.protocol import Protocol
 
 SOFTWARE = f"expressive-motion-study {version('expressive-motion-study')}"

@@ -15,7 +15,6 @@ from study.participants import Kind
 
 if TYPE_CHECKING:
     from stimuli.manifest import Manifest
-
     from study.protocol import Protocol
     from study.storage import Store
     from study.web.credentials import Credentials

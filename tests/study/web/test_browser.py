@@ -98,7 +98,7 @@ def test_a_whole_study_with_reloads_leaves_every_answer_once(page: Page, address
             page.get_by_role("button", name="Continue", exact=True).click()
         else:
             proceed(page)
-    expect(page.get_by_role("heading", name="Thank you")).to_be_visible()
+    expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()
 
     rows = list(csv.DictReader(io.StringIO(responses_csv(site.store, site.protocol))))
     counts = Counter((row["part"], row["stimulus"], row["item"]) for row in rows)
