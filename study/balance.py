@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -26,6 +28,10 @@ class Balance:
         """Least and largest count of a thing in a position."""
         counts = [count for row in self.positions.values() for count in row]
         return min(counts), max(counts)
+
+    def __str__(self) -> str:
+        positions, follows = _range(*self.position_range), _range(*self.follows_range)
+        return f"in each position {positions}, after each other {follows}"
 
     @property
     def follows_range(self) -> tuple[int, int]:
@@ -65,3 +71,36 @@ def _balance(protocol: Protocol, part: Part, plans: Iterable[Plan]) -> Balance:
         follows=dict(follows),
         first=dict(first),
     )
+
+
+def orders_csv(plans: Sequence[Plan]) -> str:
+    """Every trial of every plan, one row each, as a table for a spreadsheet."""
+    table = io.StringIO()
+    rows = csv.writer(table)
+    rows.writerow(["slot", "part", "trial", "stimulus", "reference", "items", "options"])
+    for plan in plans:
+        for trial in plan.trials:
+            items, options = (
+                " | ".join(" ".join(q) for q in shown) for shown in (trial.items, trial.options)
+            )
+            rows.writerow(
+                [plan.slot, trial.part, trial.number, trial.stimulus, trial.reference or "", items, options]
+            )
+    return table.getvalue()
+
+
+def balance_table(parts: Sequence[Balance]) -> str:
+    """The counts as a table to read."""
+    lines = []
+    for part in parts:
+        width = max(map(len, part.things))
+        low, high = part.follows_range
+        lines.append(f"{part.part}: how often in each position (after each other: {_range(low, high)})")
+        lines += [
+            f"  {name:<{width}}" + "".join(f"{n:4}" for n in row) for name, row in part.positions.items()
+        ]
+    return "\n".join(lines)
+
+
+def _range(low: int, high: int) -> str:
+    return f"{low} times" if low == high else f"{low} to {high} times"

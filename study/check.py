@@ -169,17 +169,7 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
     else:
         yield Finding("good", "orders", f"balanced for {planned} participants (a multiple of {whole})")
     for part in balance(protocol, plans):
-        low, high = part.position_range
-        after_low, after_high = part.follows_range
-        yield Finding(
-            "good",
-            f"  {part.part}",
-            f"in each position {_range(low, high)}, after each other {_range(after_low, after_high)}",
-        )
-
-
-def _range(low: int, high: int) -> str:
-    return f"{low} times" if low == high else f"{low} to {high} times"
+        yield Finding("good", f"  {part.part}", str(part))
 
 
 def _hypotheses(protocol: Protocol) -> Iterator[Finding]:

@@ -15,12 +15,12 @@ ANY = ""  # the key of a text written once for all languages
 class Text(RootModel[dict[str, str]]):
     """A text in one or more languages; written `{en: Yes, de: Ja}`, or plainly where one serves for all."""
 
-    model_config = ConfigDict(
-        frozen=True,
-        json_schema_extra={
-            "anyOf": [{"type": "string"}, {"type": "object", "additionalProperties": {"type": "string"}}]
-        },
-    )
+    model_config = ConfigDict(frozen=True)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core_schema: Any, handler: Any) -> dict[str, Any]:
+        texts = {"type": "object", "additionalProperties": {"type": "string"}}
+        return {"anyOf": [{"type": ["string", "number"]}, texts]}
 
     @model_validator(mode="before")
     @classmethod
@@ -77,4 +77,7 @@ def _named_texts(value: Any) -> Any:
     return value
 
 
-NamedTexts = Annotated[dict[str, Text], BeforeValidator(_named_texts)]
+NamedTexts = Annotated[
+    dict[str, Text],
+    BeforeValidator(_named_texts, json_schema_input_type=list[str] | dict[str, Text]),
+]

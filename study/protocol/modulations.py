@@ -30,6 +30,10 @@ def _modulation(principles: Mapping[str, Any]) -> Modulation:
             error = wrong_at((kind,), f"is no principle; {nearest(kind, PRINCIPLES)}", value, NAME)
             errors += relocated(error, ())
             continue
+        if isinstance(value, bool) or value == {}:
+            error = wrong_at((kind,), f"needs an intensity, such as {kind}: 1.2", value)
+            errors += relocated(error, ())
+            continue
         try:
             PRINCIPLES[kind].model_validate(value if isinstance(value, Mapping) else {"intensity": value})
         except ValidationError as refused:

@@ -31,7 +31,11 @@ def _one_or_more(value: Any) -> Any:
 class Selection(Written):
     """Which stimuli a part has: gestures under named modulations, or at the levels of principles."""
 
-    gesture: Annotated[list[Name], BeforeValidator(_one_or_more), Field(min_length=1)]
+    gesture: Annotated[
+        list[Name],
+        BeforeValidator(_one_or_more, json_schema_input_type=Name | list[Name]),
+        Field(min_length=1),
+    ]
     modulations: list[Name] | None = Field(None, min_length=1)
     levels: list[Name] | None = Field(None, min_length=1)
     prefix: str = ""  # put before the ids, where two parts would otherwise give a stimulus the same one
@@ -131,7 +135,9 @@ class WrittenPart(Written):
     intro: Text | None = None
     stimuli: Selection
     reference: Name | None = None  # the level shown before each judged one
-    order: Annotated[Order, BeforeValidator(_order)] = Order(stimuli="williams")
+    order: Annotated[Order, BeforeValidator(_order, json_schema_input_type=Method | Order)] = Order(
+        stimuli="williams"
+    )
     ask: tuple[Asked, ...] = Field(min_length=1)
 
 

@@ -16,6 +16,7 @@ ChanceName = Literal[
     "other stimuli",
     "other items",
     "equal share",
+    "equal share above lowest",
     "best item",
     "double difference",
 ]

@@ -14,7 +14,7 @@ from pydantic import BeforeValidator, SerializeAsAny, ValidationError, WithJsonS
 from study.questions.question import AnswerError, Question
 from study.written import NAME, nearest, refusal, relocated, wrong, wrong_at
 
-__all__ = ["QUESTIONS", "AnswerError", "Asked", "Question"]
+__all__ = ["ANY_QUESTION", "QUESTIONS", "AnswerError", "Asked", "Question"]
 
 QUESTIONS: dict[str, type[Question]] = {
     kind.kind: kind
@@ -39,4 +39,8 @@ def _read(value: Any) -> Question:
         raise refusal(relocated(error, (kind,))) from None
 
 
-Asked = Annotated[SerializeAsAny[Question], BeforeValidator(_read), WithJsonSchema({"type": "object"})]
+ANY_QUESTION: dict[str, Any] = {
+    "type": "object",
+    "title": "Question",
+}  # in the JSON Schema, until kinds are put in
+Asked = Annotated[SerializeAsAny[Question], BeforeValidator(_read), WithJsonSchema(ANY_QUESTION)]
