@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -43,14 +44,15 @@ LIGHTS = (  # direction it shines in, diffuse, specular
 def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
     """The robot in the studio, with a camera for each preset that suits the picture's shape."""
     spec = robot.build()
-    low, high = extent(spec.compile(), robot)
+    bare = spec.compile()
+    height_m = extent(bare, robot)[1][2]
     add_light(spec)
     add_cove(spec)
-    add_contact_shadow(spec, low, high)
+    add_contact_shadow(spec, find_foot(bare, robot))
     for name, (bottom, top) in PRESETS.items():
-        tall = high[2] * (top - bottom)
-        wide = tall if name == "head" else high[2] * 1.2
-        add_camera(spec, name, middle=high[2] * (bottom + top) / 2, tall=max(tall, wide * height / width))
+        tall = height_m * (top - bottom)
+        wide = tall if name == "head" else height_m * 1.2
+        add_camera(spec, name, middle=height_m * (bottom + top) / 2, tall=max(tall, wide * height / width))
     spec.visual.global_.offwidth = width
     spec.visual.global_.offheight = height
     return spec.compile()
@@ -70,6 +72,30 @@ def extent(model: mujoco.MjModel, robot: Robot) -> tuple[FloatArray, FloatArray]
     pose(model, data, robot, robot.home)
     points = Outline(model).placed(places(data))
     return points.min(axis=0), points.max(axis=0)
+
+
+@dataclass(frozen=True)
+class Foot:
+    """Where the robot meets the floor."""
+
+    link: str
+    middle: FloatArray  # (3,) on the floor, in the link's frame
+    radius: float  # m
+
+
+def find_foot(model: mujoco.MjModel, robot: Robot) -> Foot:
+    """The link with the lowest point at home, and the footprint of its lowest 10 cm."""
+    data = mujoco.MjData(model)
+    pose(model, data, robot, robot.home)
+    outline = Outline(model)
+    points = outline.placed(places(data))
+    body = model.geom_bodyid[outline.geoms[points[:, 2].argmin()]]
+    footprint = points[(model.geom_bodyid[outline.geoms] == body) & (points[:, 2] < 0.10)][:, :2]
+    middle = np.append((footprint.min(axis=0) + footprint.max(axis=0)) / 2, 0.0)
+    turn = data.xmat[body].reshape(3, 3)
+    return Foot(
+        model.body(body).name, turn.T @ (middle - data.xpos[body]), float(np.ptp(footprint, axis=0).max() / 2)
+    )
 
 
 def places(data: mujoco.MjData) -> FloatArray:
@@ -135,11 +161,14 @@ def add_cove(spec: mujoco.MjSpec) -> None:
     dress(spec, body.name, cove=type(cove)(cove.vertices, cove.faces[:, ::-1]))
 
 
-def add_contact_shadow(spec: mujoco.MjSpec, low: FloatArray, high: FloatArray) -> None:
-    """Soft darkness on the floor under the robot: a texture that ends in the floor's own colour."""
-    size, pixels = 1.3, 256
-    grid = np.linspace(-size, size, pixels)
-    distance = np.hypot(*np.meshgrid(grid, grid)) / 0.24
+def add_contact_shadow(spec: mujoco.MjSpec, foot: Foot) -> None:
+    """Soft darkness on the floor, carried by the link that stands there.
+
+    A texture on a patch of floor, and at the patch's edge exactly the floor's own colour.
+    """
+    size, pixels = 5.5 * foot.radius, 256
+    grid = np.linspace(-size, size, pixels) / foot.radius
+    distance = np.hypot(*np.meshgrid(grid, grid))
     shade = 0.34 * np.exp(-((distance / 1.25) ** 4)) + 0.20 * np.exp(-((distance / 2.1) ** 2))
     image = np.repeat(np.rint(255 * (1 - shade)).astype(np.uint8).reshape(-1, 1), 3, axis=1)
     texture = mujoco.mjtTexture.mjTEXTURE_2D
@@ -148,10 +177,10 @@ def add_contact_shadow(spec: mujoco.MjSpec, low: FloatArray, high: FloatArray) -
     )
     material = spec.add_material(name="shadow", rgba=[*BACKDROP, 1], specular=0, shininess=0)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "shadow"
-    spec.worldbody.add_geom(
+    spec.body(foot.link).add_geom(
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[size, size, 1],
-        pos=[(low[0] + high[0]) / 2, 0, 0],
+        pos=foot.middle,
         material="shadow",
         contype=0,
         conaffinity=0,

@@ -6,15 +6,21 @@ The body's measures are free in form; the robot's own module reads them.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 from pydantic import BaseModel, ConfigDict, Field
 
-from stimuli.robots.model import Joint, JointKind, Vector
+from stimuli.robots.model import Joint, JointKind, Robot, Vector
+
+if TYPE_CHECKING:
+    import mujoco
+
+LOOK = ("robots/shapes.py", "robots/skeleton.py", "scene.py", "rendering.py", "video.py")
+"""What every robot's pictures depend on, beside its own two files."""
 
 
 class JointFacts(BaseModel):
@@ -81,6 +87,27 @@ def read_facts(name: str) -> Facts:
     """Read the packaged facts of a robot."""
     text = files("stimuli.robots").joinpath(f"{name}.yaml").read_text(encoding="utf-8")
     return Facts.model_validate(yaml.safe_load(text))
+
+
+def assembled(
+    name: str,
+    build: Callable[[], mujoco.MjSpec],
+    qpos: Callable[[Mapping[str, float]], Mapping[str, float]] = dict,
+) -> Robot:
+    """The packaged robot of that name: its facts, and the function that builds its body."""
+    facts = read_facts(name)
+    return Robot(
+        name=name,
+        title=facts.title,
+        joints=tuple(joint.joint for joint in facts.joints),
+        home=facts.home,
+        build=build,
+        qpos=qpos,
+        hands=facts.hands,
+        head=facts.head,
+        sources=facts.sources,
+        sha256=sources_sha256(f"robots/{name}.yaml", f"robots/{name}.py", *LOOK),
+    )
 
 
 def sources_sha256(*names: str) -> str:

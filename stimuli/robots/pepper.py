@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stimuli.robots.facts import read_facts, sources_sha256
+from stimuli.robots.facts import assembled, read_facts
 from stimuli.robots.model import Robot
 from stimuli.robots.shapes import (
     ALONG_X,
@@ -29,31 +29,15 @@ from stimuli.robots.shapes import (
 if TYPE_CHECKING:
     import mujoco
 
-FACTS = "pepper"
-
 
 def load() -> Robot:
     """Pepper in its StandInit posture."""
-    facts = read_facts(FACTS)
-    return Robot(
-        name="pepper",
-        title=facts.title,
-        joints=tuple(joint.joint for joint in facts.joints),
-        home=facts.home,
-        build=build,
-        qpos=drive_fingers,
-        hands=facts.hands,
-        head=facts.head,
-        sources=facts.sources,
-        sha256=sources_sha256(
-            "robots/pepper.yaml", "robots/pepper.py", "robots/shapes.py", "robots/skeleton.py", "scene.py"
-        ),
-    )
+    return assembled("pepper", build, drive_fingers)
 
 
 def drive_fingers(positions: Mapping[str, float]) -> Mapping[str, float]:
     """MuJoCo joint positions: Hand becomes the angles of the fourteen finger joints."""
-    fingers = read_facts(FACTS).body["fingers"]
+    fingers = read_facts("pepper").body["fingers"]
     angles = {name: value for name, value in positions.items() if not name.endswith("Hand")}
     for side in "LR":
         if f"{side}Hand" in positions:
@@ -64,14 +48,11 @@ def drive_fingers(positions: Mapping[str, float]) -> Mapping[str, float]:
 
 def build() -> mujoco.MjSpec:
     """Pepper's body, at most 20 000 triangles."""
-    from stimuli.robots.skeleton import dress, skeleton
+    from stimuli.robots.skeleton import add_materials, dress, skeleton
 
-    facts = read_facts(FACTS)
+    facts = read_facts("pepper")
     spec = skeleton("pepper", facts)
-    for name, rgb, specular, shininess, emission in MATERIALS:
-        spec.add_material(
-            name=name, rgba=[*rgb, 1], specular=specular, shininess=shininess, emission=emission
-        )
+    add_materials(spec, MATERIALS)
     dress(spec, "Tibia", **base())
     dress(spec, "Pelvis", **pelvis())
     dress(spec, "Hip", **waist())
@@ -215,7 +196,7 @@ def torso(tablet: Mapping[str, list[float]]) -> dict[str, Mesh]:
     left = yoke.moved((-0.056, 0, 0.2258), ALONG_Y)
     light = ring(0.0445, 0.0020, 26, 4).moved((-0.057, 0.1185, 0.2258), ALONG_Y)
     collar = ring(0.0335, 0.0045, 24, 5).moved((-0.0385, 0, 0.3075))
-    bracket = Loft(((-0.06, 0, 0.05, 0.05, 0.07, 3), (0.06, 0, 0.05, 0.05, 0.085, 3))).mesh(2, 20)
+    bracket = Loft(((-0.06, 0, 0.05, 0.05, 0.07, 3), (0.04, 0, 0.05, 0.05, 0.085, 3))).mesh(2, 20)
 
     def on_tablet(mesh: Mesh, lift: float = 0.0) -> Mesh:
         return mesh.moved((lift, 0, 0)).moved(rpy=tablet["rpy"]).moved(tablet["xyz"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -11,6 +13,8 @@ from stimuli.robots.model import Vector
 from stimuli.robots.shapes import Mesh
 from stimuli.trajectory import FloatArray
 
+Material = tuple[str, Vector, float, float, float]  # name, colour, specular, shininess, emission
+
 JOINT_TYPES = {"revolute": mujoco.mjtJoint.mjJNT_HINGE, "prismatic": mujoco.mjtJoint.mjJNT_SLIDE}
 
 
@@ -19,6 +23,7 @@ def skeleton(name: str, facts: Facts) -> mujoco.MjSpec:
     spec = mujoco.MjSpec()
     spec.modelname = name
     spec.compiler.degree = False
+    spec.compiler.boundmass = spec.compiler.boundinertia = 1e-4  # links without a visible part
     spec.worldbody.add_body(name=facts.base.link, pos=facts.base.xyz)
     for joint in facts.joints:
         if joint.kind != "dimensionless":
@@ -42,6 +47,14 @@ def quaternion(rpy: Vector) -> FloatArray:
     """Rotation as MuJoCo writes it: (w, x, y, z)."""
     wxyz: FloatArray = np.asarray(Rotation.from_euler("xyz", rpy).as_quat(scalar_first=True))
     return wxyz
+
+
+def add_materials(spec: mujoco.MjSpec, materials: Sequence[Material]) -> None:
+    """Name what links are made of."""
+    for name, rgb, specular, shininess, emission in materials:
+        spec.add_material(
+            name=name, rgba=[*rgb, 1], specular=specular, shininess=shininess, emission=emission
+        )
 
 
 def dress(spec: mujoco.MjSpec, link: str, **looks: Mesh) -> None:
