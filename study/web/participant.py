@@ -15,7 +15,7 @@ from study.orders import draw_plan
 from study.participants import Participant, new_completion_code, new_participant, new_token, token_sha256
 from study.questions import AnswerError, Question
 from study.responses import Submission, playback_fault
-from study.sessions import Session, Step, Verdict, next_step, plan_sha256, steps
+from study.sessions import Session, Step, Verdict, judge, next_step, plan_sha256, steps
 from study.web.language import load_language, preferred
 from study.web.pages import render
 from study.web.site import Clip, Site, site_of
@@ -173,12 +173,13 @@ def answers(request: Request, submission: Submission) -> JSONResponse:
     if participant is None or session is None:
         return JSONResponse({"reason": "no session"}, 409)
     pages = steps_of(site, session)
-    step = next((page for page in pages if page.key == submission.step), None)
-    if step is None:
-        return JSONResponse({"reason": "no such page"}, 409)
-    if fault := _fault(site, participant, step, submission):
-        return JSONResponse({"reason": fault}, 422)
-    verdict = site.store.add_response(participant.name, submission, steps=pages, now=site.clock())
+    answered = site.store.answered(participant.name)
+    verdict = judge(submission.id, submission.step, pages=pages, answered=answered)
+    if verdict is Verdict.STORE:
+        due = next(page for page in pages if page.key == submission.step)
+        if fault := _fault(site, participant, due, submission):
+            return JSONResponse({"reason": fault}, 422)
+        verdict = site.store.add_response(participant.name, submission, steps=pages, now=site.clock())
     stored = verdict in {Verdict.STORE, Verdict.KNOWN}
     return JSONResponse({"reason": verdict.value}, 200 if stored else 409)
 

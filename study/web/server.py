@@ -57,6 +57,12 @@ def serve(
     Answers are kept in `data_folder` (SQLite), or in the database at `url`. With `kind="test"` whoever enters
     without a link is a test, kept apart from the data.
     """
+    missing = [stimulus for stimulus in protocol.stimuli if stimulus not in manifest.clips]
+    if missing:
+        raise InputError(
+            f"{clips_folder}: {len(missing)} of {len(protocol.stimuli)} clips are not there "
+            f"({', '.join(missing[:5])}{' …' if len(missing) > 5 else ''}). Run `study render` first."
+        )
     credentials, password = open_credentials(data_folder)
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
     clips = clips_of(manifest, clips_folder)

@@ -1,0 +1,134 @@
+"""The server as the command line runs it: a process of its own, stopped kindly or killed."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Event
+from uuid import uuid4
+
+import httpx
+import pytest
+
+from stimuli.errors import InputError
+from stimuli.manifest import Clip as ManifestClip
+from stimuli.manifest import Manifest
+from study.protocol import Protocol
+from study.storage import open_store
+from study.web import serve
+from study.web.site import Clip
+
+SERVE = """
+import sys
+from pathlib import Path
+from stimuli.manifest import Manifest
+from study.protocol import load_protocol
+from study.web import serve
+
+def announce(links):
+    print(links.participant, links.password, flush=True)
+
+folder = Path(sys.argv[1])
+clips = Path(sys.argv[2])
+serve(load_protocol(folder), Manifest.load(clips), clips_folder=clips, data_folder=folder / "data",
+      announce=announce, port=0, kind="simulated")
+"""
+
+
+@pytest.fixture
+def manifest(clips: dict[str, Clip]) -> Manifest:
+    made = Manifest(
+        stimuli={
+            stimulus: ManifestClip(
+                file=clip.path.name,
+                file_sha256=clip.sha256,
+                spec={},
+                spec_sha256="",
+                frames=18,
+                fps=30,
+                duration_s=clip.duration_s,
+                width=320,
+                height=180,
+                size_bytes=clip.size,
+                software={},
+                gl_renderer="none",
+            )
+            for stimulus, clip in clips.items()
+        }
+    )
+    made.save(next(iter(clips.values())).path.parent)
+    return made
+
+
+@contextmanager
+def serving(protocol: Protocol, clips_folder: Path) -> Iterator[tuple[subprocess.Popen[str], str, str]]:
+    command = [sys.executable, "-c", SERVE, str(protocol.folder), str(clips_folder)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        try:
+            address, password = process.stdout.readline().split()
+            yield process, address, password
+        finally:
+            process.kill()
+
+
+def test_ctrl_c_ends_it_well_and_the_password_is_made_once(
+    protocol: Protocol, manifest: Manifest, video_folder: Path
+) -> None:
+    for start in (1, 2):
+        with serving(protocol, video_folder) as (process, address, password):
+            assert (password == "None") == (start == 2)
+            assert httpx.get(address).status_code == 200
+            process.send_signal(signal.SIGINT)
+            assert process.wait(timeout=20) == 0
+
+
+def test_no_answer_that_was_acknowledged_is_lost_when_the_server_is_killed(
+    protocol: Protocol, manifest: Manifest, video_folder: Path
+) -> None:
+    acknowledged: list[str] = []
+    for _ in range(2):
+        with serving(protocol, video_folder) as (process, address, _):
+            enough = Event()
+            before = len(acknowledged)
+
+            def answer_until_it_dies(
+                address: str = address, enough: Event = enough, before: int = before
+            ) -> None:
+                while True:
+                    try:
+                        with httpx.Client(base_url=address, follow_redirects=True) as browser:
+                            browser.post("/start")
+                            browser.post("/consent", data={"agreed": "yes", "language": "en"})
+                            for step in ("demographics", "instructions:practice"):
+                                sent = {"id": str(uuid4()), "step": step, "on_page_ms": 1.0}
+                                if browser.post("/study/answers", json=sent).status_code == 200:
+                                    acknowledged.append(sent["id"])
+                    except httpx.TransportError:
+                        return
+                    if len(acknowledged) > before + 30:
+                        enough.set()
+
+            with ThreadPoolExecutor(4) as crowd:
+                for _ in range(4):
+                    crowd.submit(answer_until_it_dies)
+                assert enough.wait(timeout=60)
+                process.kill()
+    store = open_store(f"sqlite:///{protocol.folder}/data/study.db")
+    stored = [
+        str(response.submission.id) for _, responses in store.responses("simulated") for response in responses
+    ]
+    store.close()
+    assert len(acknowledged) > 60
+    assert set(acknowledged) <= set(stored)
+    assert len(stored) == len(set(stored))
+
+
+def test_a_study_without_its_clips_is_not_served(protocol: Protocol, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"5 of 6 clips are not there|6 of 6 clips are not there"):
+        serve(protocol, Manifest(), clips_folder=tmp_path, data_folder=tmp_path, announce=print)

@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+import csv
+import json
+from collections import Counter
+from pathlib import Path
+
+from study.export import guarded
+from study.protocol import Protocol
+from study.simulation import MANNERS, rehearse, target_of
+
+
+def test_a_rehearsal_leaves_a_whole_table_that_nobody_takes_for_data(
+    protocol: Protocol, tmp_path: Path
+) -> None:
+    table = rehearse(protocol, 4, tmp_path / "out")
+    with table.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    cells = Counter((row["participant"], row["stimulus"], row["item"]) for row in rows)
+    assert len(cells) == len(rows) == 4 * (2 + 2 * 6 + 2 * 1)
+    assert {row["session"] for row in rows} == {"simulated"}
+    assert all(row["participant"].startswith("simulated-") for row in rows)
+    assert "practice" not in {row["stimulus"] for row in rows}
+    codebook = json.loads((tmp_path / "out" / "responses.codebook.json").read_text("utf-8"))
+    assert codebook["is_data"] is False
+    assert list(rows[0]) == list(codebook["columns"])
+    asked = {entry["item"]: entry for part in codebook["parts"].values() for entry in part["items"]}
+    for row in rows[2:16]:
+        assert row["response"] in asked[row["item"]]["values"]
+
+
+def test_orders_fill_the_design_whatever_the_crowd(protocol: Protocol, tmp_path: Path) -> None:
+    table = rehearse(protocol, 4, tmp_path / "out")
+    with table.open(newline="", encoding="utf-8") as file:
+        firsts = Counter(
+            row["stimulus"]
+            for row in csv.DictReader(file)
+            if row["part"] == "recognition" and row["trial"] == "1"
+        )
+    assert firsts == {"joy": 12, "sadness": 12}
+
+
+def test_targets_are_what_the_hypotheses_expect(protocol: Protocol) -> None:
+    targets = {}
+    for part in protocol.parts.values():
+        for stimulus in part.stimuli:
+            targets[stimulus] = target_of(protocol, protocol.stimuli[stimulus], part.questions[0])
+    assert targets == {"joy": "joy", "sadness": "sadness", "time_low": "lower", "time_high": "higher"}
+
+
+def test_those_who_drop_out_leave_what_they_answered(protocol: Protocol, tmp_path: Path) -> None:
+    assert MANNERS["dropout"].drops_out > 0
+    table = rehearse(protocol, 6, tmp_path / "out", shares={"dropout": 1.0})
+    with table.open(newline="", encoding="utf-8") as file:
+        counts = Counter(row["participant"] for row in csv.DictReader(file))
+    assert min(counts.values(), default=0) < 16
+
+
+def test_formulas_are_disarmed_and_numbers_are_not() -> None:
+    assert guarded("=1+1") == "'=1+1"
+    assert guarded("@SUM(A1)") == "'@SUM(A1)"
+    assert guarded("-3.5") == "-3.5"
+    assert guarded("joy") == "joy"
