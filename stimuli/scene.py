@@ -177,13 +177,21 @@ def add_contact_shadow(spec: mujoco.MjSpec, foot: Foot) -> None:
     )
     material = spec.add_material(name="shadow", rgba=[*BACKDROP, 1], specular=0, shininess=0)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "shadow"
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    patch = spec.add_mesh(
+        name="shadow",
+        uservert=(foot.middle + np.pad(size * corners, ((0, 0), (0, 1)))).ravel().tolist(),
+        userface=[0, 1, 2, 0, 2, 3],
+        usertexcoord=((corners + 1) / 2).ravel().tolist(),
+    )
+    patch.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     spec.body(foot.link).add_geom(
-        type=mujoco.mjtGeom.mjGEOM_PLANE,
-        size=[size, size, 1],
-        pos=foot.middle,
+        type=mujoco.mjtGeom.mjGEOM_MESH,
+        meshname="shadow",
         material="shadow",
         contype=0,
         conaffinity=0,
+        mass=0.01,
     )
 
 
