@@ -1,8 +1,8 @@
 """Published numbers as data, and whether they can be true.
 
 A share of n people is k/n for a whole k, so most printed shares are impossible for a wrong n or a misprint:
-the GRIM test (Brown & Heathers 2017, Soc. Psychol. Personal. Sci. 8). The same holds for means of whole-number
-ratings.
+the GRIM test (Brown & Heathers 2017, Soc. Psychol. Personal. Sci. 8). The same holds for means of
+whole-number ratings.
 """
 
 from __future__ import annotations
