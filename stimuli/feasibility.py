@@ -28,9 +28,17 @@ class Violation:
         return f"{self.joint} at {self.time_s:.2f} s: {excess}"
 
 
-def violations(trajectory: Trajectory, robot: Robot) -> list[Violation]:
+QUANTITIES = ("position", "velocity", "acceleration")
+
+
+def violations(
+    trajectory: Trajectory, robot: Robot, quantities: tuple[str, ...] = QUANTITIES
+) -> list[Violation]:
     """Every limit exceeded, worst place each, in the order of the joints."""
-    return [violation for name in trajectory.joints for violation in _of_joint(trajectory, robot.joint(name))]
+    found = [
+        violation for name in trajectory.joints for violation in _of_joint(trajectory, robot.joint(name))
+    ]
+    return [violation for violation in found if violation.quantity in quantities]
 
 
 def _of_joint(trajectory: Trajectory, joint: Joint) -> list[Violation]:

@@ -13,6 +13,10 @@ from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec
 from stimuli.trajectory import Trajectory
 
+DEMONSTRATED = (
+    "position",
+    "velocity",
+)  # limits that a demonstration is held to; its accelerations may be noise
 _BISECTIONS = 12
 
 
@@ -30,6 +34,12 @@ class Motion:
 def generate(spec: StimulusSpec, robot: Robot) -> Motion:
     """The motion of a stimulus. InputError where the robot cannot do it, saying what it could."""
     demonstration = read_gesture(spec.gesture, robot, spec.learning.dt_s)
+    beyond = violations(demonstration, robot, DEMONSTRATED)
+    if beyond:
+        places = "; ".join(map(str, beyond))
+        raise InputError(
+            f"{spec.gesture}: the demonstration itself exceeds what {robot.name} can do: {places}"
+        )
     primitive = Primitive.learn(demonstration, spec.learning)
     try:
         trajectory = primitive.rollout(spec.modulation, robot)

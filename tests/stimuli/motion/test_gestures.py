@@ -1,0 +1,157 @@
+"""Gestures from files, well and badly written."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from stimuli.errors import InputError
+from stimuli.gestures import READERS, read_gesture
+
+KEYFRAMES = """
+gesture: lift
+robot: toy
+title: {en: Lift}
+unit: deg
+duration: 2.0 s
+joints:
+  Shoulder: {0.2: home, 1.0: 60, 1.4: 60, 2.0: home}
+  Hand: {0.0: home, 1.0: 0.9}
+"""
+
+QIANIM = """<?xml version="1.0" encoding="utf-8"?>
+<Animation typeVersion="2.0" xmlns:editor="{namespace}">
+  <ActuatorCurve actuator="Elbow" mute="0" unit="degree" fps="25">
+    <Key frame="25" value="0">
+      <Tangent side="right" abscissaParam="10" ordinateParam="0" editor:interpType="bezier"/></Key>
+    <Key frame="50" value="90">
+      <Tangent side="left" abscissaParam="-10" ordinateParam="0" editor:interpType="bezier"/></Key>
+  </ActuatorCurve>
+  <ActuatorCurve actuator="Hand" mute="false" unit="dimensionless" fps="25.0">
+    <Key frame="30" value="0.2"/><Key frame="50" value="0.8"/>
+  </ActuatorCurve>
+  <ActuatorCurve actuator="Hip" mute="1" unit="degree" fps="25"><Key frame="0" value="5"/></ActuatorCurve>
+</Animation>
+"""
+
+
+def written(folder, name, text):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_keyframes_pass_through_their_keys_and_rest_at_both_ends(tmp_path, robot):
+    shown = read_gesture(written(tmp_path, "lift.yaml", KEYFRAMES), robot)
+    assert shown.joints == robot.joint_names
+    assert shown.duration_s == pytest.approx(2.0)
+    at = shown.at(np.array([0.0, 0.2, 1.0, 1.2, 1.4, 2.0]))[:, 2]
+    assert at == pytest.approx([0.1, 0.1, *[np.pi / 3] * 3, 0.1], abs=1e-6)
+    assert np.all(shown.joint("Elbow") == 0.1)
+    acceleration = np.diff(shown.positions, 2, axis=0) / 0.01**2
+    assert np.abs(np.diff(acceleration, axis=0)).max() < 0.05 * np.abs(acceleration).max() * 4
+    assert np.abs(shown.positions[1] - shown.positions[0]).max() < 1e-4
+    assert shown.joint("Hand").max() <= 0.9 + 1e-12
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("Shoulder", "Sholder", r":8: toy has no joint 'Sholder'; did you mean Shoulder\?"),
+        (
+            "1.0: 60",
+            "1.0: 300",
+            r":8: joints.Shoulder: 300 at 1 s is outside the joint's range, -171.9 to 171.9 deg",
+        ),
+        (
+            "2.0: home}",
+            "2.5: home}",
+            r":8: joints.Shoulder: a key at 2.5 s; keys lie from 0 to the duration, 2 s",
+        ),
+        ("duration: 2.0 s", "duration: -2 s", r":6: duration: .*greater than 0"),
+        ("unit: deg", "unti: deg", r":5: unti: Extra inputs"),
+        ("duration: 2.0 s", "duration: {", r"not readable as YAML"),
+    ],
+)
+def test_a_bad_keyframe_file_is_refused_at_its_line(old, new, message, tmp_path, robot):
+    path = written(tmp_path, "lift.yaml", KEYFRAMES.replace(old, new))
+    with pytest.raises(InputError, match=message) as error:
+        read_gesture(path, robot)
+    assert str(path) in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "host",
+    ["http://www.aldebaran.com/animation/editor", "http://www.ald.softbankrobotics.com/animation/editor"],
+)
+def test_an_animation_begins_with_its_first_key_and_follows_its_curves(host, tmp_path, robot):
+    shown = read_gesture(written(tmp_path, "a.qianim", QIANIM.format(namespace=host)), robot)
+    assert shown.duration_s == pytest.approx(1.0)
+    elbow, hand = shown.joint("Elbow"), shown.joint("Hand")
+    assert elbow[[0, -1]] == pytest.approx([0, np.pi / 2])
+    assert elbow[50] == pytest.approx(np.pi / 4)  # symmetric
+    assert np.all(np.diff(elbow) > 0)
+    assert elbow[1] < 1e-3  # flat tangents
+    assert np.all(hand[:20] == 0.2)  # its first key comes later
+    assert hand[60] == pytest.approx(0.5)  # without tangents: straight
+    assert np.all(shown.joint("Hip") == 0.1)  # muted
+
+
+def test_a_bezier_piece_is_the_curve_it_says(tmp_path, robot):
+    """Handles of a third of the way, in time and value, make a straight line; cubic ones make the cubic."""
+    text = QIANIM.format(namespace="x").replace('abscissaParam="10"', 'abscissaParam="8.3333333333"')
+    text = text.replace('abscissaParam="-10"', 'abscissaParam="-8.3333333333"')
+    elbow = read_gesture(written(tmp_path, "a.qianim", text), robot).joint("Elbow")
+    s = np.linspace(0, 1, 101)
+    assert elbow == pytest.approx(np.pi / 2 * (3 * s**2 - 2 * s**3), abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("<Animation>", ":1: not readable as XML"),
+        ("<Animation/>", "no ActuatorCurve with keys"),
+        ("<!DOCTYPE a><Animation/>", "document type"),
+        (QIANIM.replace('"Elbow"', '"Elbw"'), "no joint 'Elbw'; did you mean Elbow"),
+        (QIANIM.replace('frame="25"', 'frame="x"'), "frame='x'; a number is needed"),
+        (QIANIM.replace('unit="degree" fps', 'unit="gon" fps'), "unit 'gon'"),
+    ],
+)
+def test_a_bad_animation_is_refused(text, message, tmp_path, robot):
+    with pytest.raises(InputError, match=message):
+        read_gesture(written(tmp_path, "a.qianim", text.replace("{namespace}", "x")), robot)
+
+
+def test_uneven_unsorted_and_repeated_samples_give_the_motion_they_come_from(tmp_path, robot):
+    rng = np.random.default_rng(1)
+    t = np.concatenate([[0.0, 2.0], rng.uniform(0, 2, 180)])
+    t = np.concatenate([t, t[5:25]])
+    rows = [f"{a},{np.degrees(np.sin(a) ** 2)},{0.5 + 0.1 * np.sin(a)}" for a in t]
+    text = "time,Waist [deg],Hand\n" + "\n".join(rows)
+    shown = read_gesture(written(tmp_path, "s.csv", text), robot)
+    assert shown.joint("Waist") == pytest.approx(np.sin(shown.times) ** 2, abs=2e-3)
+    assert shown.joint("Hand") == pytest.approx(0.5 + 0.1 * np.sin(shown.times), abs=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", ":1: the first column is 'time'"),
+        ("time,Wiast\n0,1\n1,2", ":1: toy has no joint 'Wiast'; did you mean Waist"),
+        ("time,Waist\n0,1\n1,x", ":3: .*every cell is a number"),
+        ("time,Waist\n0,1\n1", ":3: 1 cells; the header has 2"),
+        ("time,Waist\n0,1\n0,2", "at least two at different times"),
+        ("time,Waist\n0,1\n1,nan", "not finite"),
+    ],
+)
+def test_bad_samples_are_refused_at_their_line(text, message, tmp_path, robot):
+    with pytest.raises(InputError, match=message):
+        read_gesture(written(tmp_path, "s.csv", text), robot)
+
+
+def test_what_is_no_gesture_is_refused(tmp_path, robot):
+    with pytest.raises(InputError, match=r"'\.txt' is no gesture format\. Known: .*\.qianim"):
+        read_gesture(tmp_path / "a.txt", robot)
+    with pytest.raises(InputError, match="no such file"):
+        read_gesture(tmp_path / "a.yaml", robot)
+    assert {".yaml", ".csv", ".qianim"} <= set(READERS)

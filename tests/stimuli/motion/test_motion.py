@@ -1,0 +1,149 @@
+"""From the description of a stimulus to a motion the robot can do, its descriptors and relations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stimuli.descriptors import describe, sparc
+from stimuli.dmp import Learning, Primitive
+from stimuli.errors import InputError
+from stimuli.feasibility import violations
+from stimuli.kinematics import link_poses
+from stimuli.motion import generate
+from stimuli.principles import Modulation
+from stimuli.relations import found, relations_of
+from stimuli.robots.model import Relation
+from stimuli.spec import StimulusSpec, Video
+from stimuli.trajectory import Trajectory
+
+GESTURE = """
+gesture: lift
+unit: rad
+duration: 2.0 s
+joints:
+  Hip: {0.0: home, 0.9: 0.6, 2.0: home}
+  Shoulder: {0.0: home, 0.5: 1.5, 1.0: 2.0, 1.4: 1.8, 2.0: home}
+"""
+
+
+@pytest.fixture
+def spec(tmp_path):
+    path = tmp_path / "lift.yaml"
+    path.write_text(GESTURE)
+
+    def make(**modulation) -> StimulusSpec:
+        return StimulusSpec(
+            id="lift_high", robot="toy", robot_sha256="", gesture=path, gesture_sha256="",
+            modulation=Modulation.model_validate(modulation), learning=Learning(), video=Video(),
+        )  # fmt: skip
+
+    return make
+
+
+def test_a_plain_stimulus_moves_as_demonstrated(spec, robot):
+    motion = generate(spec(), robot)
+    assert motion.trajectory.duration_s == pytest.approx(2.0, abs=0.2)
+    shown = motion.demonstration
+    assert np.abs(motion.trajectory.at(shown.times) - shown.positions).max() < 2e-3
+    assert motion.margins["Shoulder"]["position"] == pytest.approx(1.0, abs=1e-2)
+    assert 0.9 < motion.margins["Shoulder"]["velocity"] < 1
+
+
+@pytest.mark.parametrize(
+    ("modulation", "named"),
+    [({"exa": 2}, "exa.intensity"), ({"goal": {"Hip": 0.5}, "exa": 2}, "exa.intensity")],
+)
+def test_what_the_robot_cannot_do_is_refused_with_the_largest_intensity_that_fits(
+    modulation, named, spec, robot
+):
+    with pytest.raises(
+        InputError, match=r"lift_high: Shoulder at 1\.\d+ s: position 3\.\d+ rad, limit 3"
+    ) as error:
+        generate(spec(**modulation), robot)
+    fits = float(str(error.value).split(f"{named} ")[1].rstrip("."))
+    assert 1.4 < fits < 1.6
+    generate(spec(**{**modulation, "exa": fits - 0.005}), robot)
+    with pytest.raises(InputError):
+        generate(spec(**{**modulation, "exa": fits + 0.01}), robot)
+
+
+def test_too_fast_is_refused_too(spec, robot):
+    joints = tuple(replace(joint, max_velocity=6.0) for joint in robot.joints)
+    slow = replace(robot, joints=joints)
+    generate(spec(), slow)
+    with pytest.raises(
+        InputError, match=r"Shoulder at .* velocity .* rad/s, limit -?6\. It would fit with time"
+    ):
+        generate(spec(time=0.5), slow)
+
+
+def test_a_demonstration_out_of_range_is_named_as_such(spec, robot):
+    exact, narrow = (
+        replace(robot, joints=tuple(replace(joint, upper=upper) for joint in robot.joints))
+        for upper in (2, 1.9)
+    )
+    assert not violations(generate(spec(), exact).trajectory, exact)  # what learning misses is tolerated
+    with pytest.raises(
+        InputError, match=r"joints\.Shoulder: 2 at 1 s is outside the joint's range, -3 to 1\.9 rad"
+    ):
+        generate(spec(), narrow)
+    table = spec().gesture.with_suffix(".csv")
+    table.write_text("time,Shoulder\n0,0.1\n0.5,1\n1,2\n1.5,1\n2,0.1\n")
+    with pytest.raises(
+        InputError, match=r"lift\.csv: the demonstration itself exceeds .* Shoulder at 1\.00 s"
+    ):
+        generate(spec().model_copy(update={"gesture": table}), narrow)
+
+
+def test_relations_follow_from_the_tree(robot):
+    assert found(robot) == (Relation("Hip", "Waist", -1), Relation("Waist", "Elbow", -1))
+    own = (Relation("Waist", "Elbow", 1), Relation("Hip", "Waist", 1))
+    assert relations_of(replace(robot, relations=own), robot.joint_names) == own[::-1]
+    assert relations_of(robot, ("Hip", "Elbow")) == ()
+    circle = (Relation("Waist", "Elbow", 1), Relation("Elbow", "Waist", 1))
+    with pytest.raises(InputError, match="toy: relations form a cycle"):
+        relations_of(replace(robot, relations=circle), robot.joint_names)
+
+
+def test_kinematics_place_the_links(robot):
+    upright = dict.fromkeys(robot.joint_names, 0.0)
+    assert link_poses(robot.joints, upright)["forearm"][:3, 3] == pytest.approx([0, 0, 1.2])
+    bent = link_poses(robot.joints, upright | {"Hip": np.array([0.0, np.pi / 2])})["forearm"]
+    assert bent[:, :3, 3] == pytest.approx(np.array([[0, 0, 1.2], [0.9, 0, 0.3]]))
+
+
+def test_descriptors_of_a_minimum_jerk_reach_are_the_known_ones(robot):
+    """Speed peaks at 1.875 of the mean; log dimensionless jerk is -ln(720 / 1.875^2) (Hogan 2009)."""
+    s = np.linspace(0, 1, 2001)
+    positions = np.zeros((len(s), len(robot.joints)))
+    positions[:, 0] = 3 * (10 * s**3 - 15 * s**4 + 6 * s**5)
+    described = describe(Trajectory(s * 1.0, positions, robot.joint_names), robot)
+    assert described["duration_s"] == 1
+    assert described["joints_moving"] == 1
+    assert described["amplitude"] == pytest.approx(0.5)
+    assert described["path_length"] == pytest.approx(0.5, rel=1e-3)
+    assert described["speed_peak"] == pytest.approx(1.875 * described["speed_mean"], rel=1e-3)
+    assert described["log_dimensionless_jerk"] == pytest.approx(-np.log(720 / 1.875**2), abs=2e-2)
+    assert -1.6 < described["sparc"] < -1.35
+
+
+def test_smoothness_does_not_depend_on_size_or_duration_and_falls_with_jerks(robot, demonstrate):
+    shown = demonstrate(1)
+    slower = Trajectory(2 * shown.times, shown.positions, shown.joints)
+    smaller = replace(shown, positions=0.5 * shown.positions)
+    rough = replace(shown, positions=shown.positions + 0.01 * np.sin(60 * shown.times)[:, None])
+    smooth = [describe(t, robot) for t in (shown, slower, smaller, rough)]
+    for other in smooth[1:3]:
+        assert other["log_dimensionless_jerk"] == pytest.approx(smooth[0]["log_dimensionless_jerk"], abs=1e-6)
+    assert smooth[3]["log_dimensionless_jerk"] < smooth[0]["log_dimensionless_jerk"] - 1
+    speed = np.exp(-((np.linspace(-4, 4, 400)) ** 2))
+    assert sparc(speed, 0.01) > sparc(speed + 0.3 * np.roll(speed, 120), 0.01)
+
+
+def test_still_motions_have_descriptors_too(robot):
+    still = Trajectory(np.linspace(0, 1, 101), np.full((101, 5), 0.1), robot.joint_names)
+    assert describe(still, robot)["speed_peak"] == 0
+    assert Primitive.learn(still).rollout(Modulation(), robot).duration_s == pytest.approx(1.0)

@@ -1,0 +1,39 @@
+"""Many variants at once are the same motions as one by one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from stimuli.dmp import Learning, Primitive
+from stimuli.principles import PRINCIPLES, Modulation
+from stimuli.rollout import integrate
+from stimuli.variants import integrate_all, is_superposition
+
+
+@pytest.mark.parametrize("scheme", ["foh", "zoh", "semi"])
+def test_variants_together_are_the_motions_one_by_one(scheme, robot, demonstrate):
+    primitive = Primitive.learn(demonstrate(1), Learning(scheme=scheme))
+    modulations = [Modulation()] + [Modulation().with_(kind.example(robot)) for kind in PRINCIPLES.values()]
+    courses = [primitive.course(modulation, robot) for modulation in modulations]
+    together = integrate_all(courses, 0.02, 200)
+    for course, positions in zip(courses, together, strict=True):
+        assert np.abs(integrate(course, 0.02, 200)[0] - positions).max() < 1e-11
+    assert [is_superposition(course) for course in courses].count(True) >= 5
+
+
+def test_the_spread_of_randomization_is_the_one_its_formula_says(robot, demonstrate):
+    """Standard deviation over seeds: (1 + mean |w|) p |R|, R the spring's answers to the weights."""
+    from stimuli.variants import responses
+
+    primitive = Primitive.learn(demonstrate(1))
+    seeds = [Modulation.model_validate({"rand": {"intensity": 0.2, "seed": seed}}) for seed in range(2000)]
+    drawn = integrate_all([primitive.course(m, robot) for m in seeds], 0.1, 30)
+    scale = 1 + np.abs(primitive.weights).mean(axis=0)
+    answers = responses(primitive.course(Modulation(), robot), 0.1, 30)[:, :-1]
+    expected = 0.2 * scale * np.linalg.norm(answers, axis=1)[:, None]
+    assert drawn.std(axis=0)[5:] == pytest.approx(expected[5:], rel=0.06)
+    assert drawn.mean(axis=0)[5:] == pytest.approx(
+        integrate(primitive.course(Modulation(), robot), 0.1, 30)[0][5:],
+        abs=4 * expected.max() / np.sqrt(2000),
+    )
