@@ -12,6 +12,11 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
 
+def even_times(duration_s: float, dt_s: float) -> FloatArray:
+    """Times from 0 to the duration in even steps as near to dt_s as fit."""
+    return np.linspace(0.0, duration_s, max(1, round(duration_s / dt_s)) + 1)
+
+
 @dataclass(frozen=True)
 class Trajectory:
     """Joint motion on a uniform time grid.
@@ -51,8 +56,9 @@ class Trajectory:
 
         Between samples by monotone cubics (PCHIP), which never leave the range of the samples.
         """
-        n = max(1, round(self.duration_s / dt_s))
-        if n == len(self.times) - 1:
+        times = even_times(self.duration_s, dt_s)
+        if len(times) == len(self.times):
             return self
-        times = np.linspace(self.times[0], self.times[-1], n + 1)
-        return Trajectory(times - times[0], PchipInterpolator(self.times, self.positions)(times), self.joints)
+        return Trajectory(
+            times, PchipInterpolator(self.times - self.times[0], self.positions)(times), self.joints
+        )

@@ -1,8 +1,8 @@
 """Many variants of one motion in one call.
 
 A motion is linear in its goal and its weights, y = y_0 + (g - y_0) S + R (p w): S is the spring's answer to a
-step and R are its answers to the basis functions, the same for all joints and all variants that share phase and
-duration. So variants by Arc, Randomization, Exaggeration and Goal are a matrix product; others go one by one.
+step and R are its answers to the basis functions, the same for all joints and all variants that share phase
+and duration. So variants by Arc, Randomization, Exaggeration and Goal are a matrix product; others go singly.
 """
 
 from __future__ import annotations

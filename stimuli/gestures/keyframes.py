@@ -24,9 +24,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from scipy.interpolate import BPoly, PchipInterpolator
 
 from stimuli.errors import InputError
-from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, time_grid, whole_body
+from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, whole_body
 from stimuli.robots.model import Joint, Robot
-from stimuli.trajectory import FloatArray, Trajectory
+from stimuli.trajectory import FloatArray, Trajectory, even_times
 from stimuli.units import TIME, in_base_unit
 
 SUFFIXES = (".yaml", ".yml")
@@ -63,7 +63,7 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
         raise InputError(
             f"{path}:{_line(tree, first['loc'])}: {name}: {message}, not {first['input']!r}"
         ) from err
-    times = time_grid(frames.duration, dt_s)
+    times = even_times(frames.duration, dt_s)
     moving = {}
     for name, keys in frames.joints.items():
         place = f"{path}:{_line(tree, ('joints', name))}"

@@ -13,9 +13,9 @@ from pathlib import Path
 
 from stimuli.errors import InputError
 from stimuli.gestures.bezier import Handle, Key, sample
-from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, time_grid, whole_body
+from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, whole_body
 from stimuli.robots.model import Joint, Robot
-from stimuli.trajectory import Trajectory
+from stimuli.trajectory import Trajectory, even_times
 
 SUFFIXES = (".qianim",)
 
@@ -47,7 +47,7 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     end = max(key.time_s for keys in curves.values() for key in keys)
     if end <= begin:
         raise InputError(f"{path}: all keys lie in one frame; a gesture needs some duration")
-    times = time_grid(end - begin, dt_s)
+    times = even_times(end - begin, dt_s)
     return whole_body(times, {name: sample(keys, times + begin) for name, keys in curves.items()}, robot)
 
 

@@ -14,11 +14,6 @@ from stimuli.robots.model import Joint, Robot
 from stimuli.trajectory import FloatArray, Trajectory
 
 
-def time_grid(duration_s: float, dt_s: float) -> FloatArray:
-    """Times from 0 to the duration in even steps as near to dt_s as fit."""
-    return np.linspace(0.0, duration_s, max(1, round(duration_s / dt_s)) + 1)
-
-
 def whole_body(times: FloatArray, moving: Mapping[str, FloatArray], robot: Robot) -> Trajectory:
     """Motion of all joints: those that move, and the others at home."""
     columns = [moving.get(name, np.full(len(times), robot.home[name])) for name in robot.joint_names]

@@ -14,9 +14,9 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from stimuli.errors import InputError
-from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, time_grid, whole_body
+from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, whole_body
 from stimuli.robots.model import Robot
-from stimuli.trajectory import FloatArray, Trajectory
+from stimuli.trajectory import FloatArray, Trajectory, even_times
 
 SUFFIXES = (".csv",)
 
@@ -35,7 +35,7 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     if len(samples) < 2 or np.ptp(samples[:, 0]) <= 0:
         raise InputError(f"{path}: {len(samples)} samples; at least two at different times are needed")
     moments, values = _in_order(samples[:, 0], samples[:, 1:])
-    times = time_grid(float(np.ptp(moments)), dt_s)
+    times = even_times(float(np.ptp(moments)), dt_s)
     smooth = PchipInterpolator(moments - moments[0], values)(times)
     moving = {}
     for column, title in zip(smooth.T, header[1:], strict=True):

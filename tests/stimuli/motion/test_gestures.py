@@ -155,3 +155,45 @@ def test_what_is_no_gesture_is_refused(tmp_path, robot):
     with pytest.raises(InputError, match="no such file"):
         read_gesture(tmp_path / "a.yaml", robot)
     assert {".yaml", ".csv", ".qianim"} <= set(READERS)
+
+
+CHOREGRAPHE = """# Choregraphe bezier export in Python.
+from naoqi import ALProxy
+names = list()
+times = list()
+keys = list()
+
+names.append("Elbow")
+times.append([1.0, 2.0])
+keys.append([[0, [3, -0.3, 0], [3, 0.3333333333333333, 0]], [1.5, [3, -0.3333333333333333, 0], [3, 0, 0]]])
+
+names.append("Hand")
+times.append([1.0, 2.0])
+keys.append([0.2, 0.8])
+
+motion = ALProxy("ALMotion")
+motion.angleInterpolationBezier(names, times, keys)
+"""
+
+
+def test_a_choregraphe_export_is_read_and_never_executed(tmp_path, robot):
+    shown = read_gesture(written(tmp_path, "export.py", CHOREGRAPHE), robot)
+    s = np.linspace(0, 1, 101)
+    assert shown.joint("Elbow") == pytest.approx(1.5 * (3 * s**2 - 2 * s**3), abs=1e-8)
+    assert shown.joint("Hand") == pytest.approx(0.2 + 0.6 * s)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[0.2, 0.8]", "[open('x'), 0.8]", r":13: \[open\('x'\), 0.8\] is no literal; nothing is executed"),
+        ('names.append("Hand")', "", "1 names, 2 times, 2 keys"),
+        ("[0.2, 0.8]", "[0.2]", "not lists of one length"),
+        ("[0.2, 0.8]", "[0.2, 'x']", "key 'x' at 2.0 is no angle"),
+        ("names = list()", "names = (", "not readable as Python"),
+        ('"Elbow"', '"Elbw"', "did you mean Elbow"),
+    ],
+)
+def test_a_bad_export_is_refused(old, new, message, tmp_path, robot):
+    with pytest.raises(InputError, match=message):
+        read_gesture(written(tmp_path, "export.py", CHOREGRAPHE.replace(old, new)), robot)
