@@ -11,7 +11,7 @@ import json
 import random
 import re
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -61,20 +61,22 @@ def rehearse(
     *,
     clips: Mapping[str, Clip] | None = None,
     shares: Mapping[str, float] = USUAL,
+    progress: Callable[[int], object] = lambda _: None,
 ) -> Path:
     """Let n simulated participants take the study; write responses.csv and codebook, give the table's path.
 
     Clips need not be rendered: without them the videos count as of no length. `shares` says how often each of
-    the MANNERS occurs.
+    the MANNERS occurs; `progress` hears how many are done.
     """
-    shown = clips or {stimulus: _unrendered(stimulus) for stimulus in protocol.stimuli}
+    shown = {stimulus: _unrendered(stimulus) for stimulus in protocol.stimuli} | dict(clips or {})
     with tempfile.TemporaryDirectory() as scratch:
         store = open_store(f"sqlite:///{scratch}/rehearsal.db")
         site = Site(protocol, store, shown, new_credentials(new_password()), SOFTWARE, kind="simulated")
         with running(create_app(site)) as address, ThreadPoolExecutor(AT_ONCE) as crowd:
             visits = [crowd.submit(take_part, site, address, number, shares) for number in range(n)]
-            for visit in visits:
+            for done, visit in enumerate(visits, start=1):
                 visit.result()
+                progress(done)
         table = export_responses(store, protocol, out, kind="simulated", clips=hashes(clips or {}))
         store.close()
     return table

@@ -139,3 +139,94 @@ def test_neither_keys_nor_scripts_can_skip_the_video(page: Page, address: str) -
         assert played_s == pytest.approx(0.6, abs=0.02), "it went back and played the rest"
     else:
         expect(page.get_by_role("radio").first).to_be_disabled()
+
+
+def test_answers_given_without_a_network_arrive_when_it_is_back(page: Page, address: str, site: Site) -> None:
+    begin(page, address)
+    page.context.set_offline(True)
+    page.get_by_label("How old are you?").fill("34")
+    page.get_by_role("button", name="Continue", exact=True).dblclick()
+    expect(page.locator("#notice")).to_contain_text("There is no connection")
+    page.context.set_offline(False)
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible(timeout=15_000)
+    [(_, responses)] = site.store.responses("participant")
+    assert [response.submission.values for response in responses] == [{"age": "34", "gender": ""}]
+
+
+def test_answers_survive_closing_the_browser_before_they_were_sent(
+    page: Page, address: str, site: Site
+) -> None:
+    begin(page, address)
+    page.context.route("**/study/answers", lambda route: route.abort())
+    page.get_by_label("How old are you?").fill("51")
+    page.get_by_role("button", name="Continue", exact=True).click()
+    expect(page.locator("#notice")).to_contain_text("There is no connection")
+    page.close()
+    page.context.unroute("**/study/answers")
+    later = page.context.new_page()
+    later.goto(f"{address}/study")
+    expect(later.get_by_role("heading", name="Before we start")).to_be_visible()
+    [(_, responses)] = site.store.responses("participant")
+    assert [response.submission.values["age"] for response in responses] == ["51"]
+
+
+def test_a_second_tab_and_the_back_button_lead_to_the_page_that_is_due(page: Page, address: str) -> None:
+    begin(page, address)
+    tab = page.context.new_page()
+    tab.goto(address)
+    expect(tab.get_by_role("heading", name="About you")).to_be_visible()
+    proceed(page)
+    tab.get_by_role("button", name="Continue", exact=True).click()
+    expect(tab.get_by_role("heading", name="Before we start")).to_be_visible()
+    proceed(page)
+    page.go_back()
+    page.goto(f"{address}/study")
+    expect(page.get_by_role("heading", name="Practice")).to_be_visible()
+
+
+def test_a_video_that_fails_is_said_noted_and_can_be_tried_again(
+    page: Page, address: str, site: Site
+) -> None:
+    begin(page, address)
+    proceed(page)
+    page.context.route("**/clips/*", lambda route: route.fulfill(status=503))
+    page.reload()
+    proceed(page)
+    expect(page.locator("#notice")).to_contain_text("could not be played", timeout=20_000)
+    page.context.unroute("**/clips/*")
+    page.get_by_role("button", name="Try again").click()
+    watch(page)
+    expect(page.get_by_role("radio").first).to_be_enabled()
+    assert sum(site.store.event_counts("video_failed").values()) >= 1
+
+
+def test_the_keyboard_alone_is_enough_on_a_small_german_screen(browser: Browser, address: str) -> None:
+    context = browser.new_context(locale="de-DE", viewport={"width": 390, "height": 844})
+    page = context.new_page()
+    page.goto(address)
+    expect(page.locator("html")).to_have_attribute("lang", "de")
+    for button in ("Starten", "Ich stimme zu, weiter", "Weiter", "Weiter"):
+        if button.startswith("Ich"):
+            page.get_by_role("checkbox").focus()
+            page.keyboard.press("Space")
+        page.get_by_role("button", name=button, exact=True).focus()
+        with page.expect_navigation():
+            page.keyboard.press("Enter")
+    page.get_by_role("button", name="Abspielen").focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("status").first).to_have_text("Gesehen")
+    page.get_by_role("radio").first.focus()
+    for _ in EXPRESSIONS:
+        page.keyboard.press("Space")
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "continue"
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    for label in page.locator("table.grid td label").all():
+        box = label.bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) >= 44
+    with page.expect_navigation():
+        page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="Was drückt der Roboter aus?")).to_be_visible()
+    context.close()
