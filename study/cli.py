@@ -10,6 +10,7 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -35,10 +36,18 @@ app = typer.Typer(
 console = Console(highlight=False, soft_wrap=True)
 
 ProtocolPath = Annotated[Path, typer.Argument(metavar="PROTOCOL", help="Protocol folder, or its YAML file.")]
+Out = Annotated[Path, typer.Option("--out", help="Folder to write into.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the answer as JSON, for programs.")]
-Clips = Annotated[Path | None, typer.Option("--clips", help="Folder of the clips; PROTOCOL/stimuli unless told.")]
-Data = Annotated[Path | None, typer.Option("--data", help="Folder of the answers; PROTOCOL/data unless told.")]
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes that render; one per core unless told.")]
+Clips = Annotated[
+    Path | None, typer.Option("--clips", help="Folder of the clips; PROTOCOL/stimuli unless told.")
+]
+Data = Annotated[
+    Path | None, typer.Option("--data", help="Folder of the answers; PROTOCOL/data unless told.")
+]
+Database = Annotated[str | None, typer.Option(help="Database URL; SQLite in the data folder unless told.")]
+Workers = Annotated[
+    int | None, typer.Option("--workers", min=1, help="Processes that render; one per core unless told.")
+]
 
 
 def main() -> None:
@@ -46,8 +55,52 @@ def main() -> None:
     try:
         app()
     except InputError as fault:
-        Console(stderr=True, highlight=False, soft_wrap=True).print(f"[red bold]study:[/] {escape(str(fault))}")
+        Console(stderr=True, highlight=False, soft_wrap=True).print(
+            f"[red bold]study:[/] {escape(str(fault))}"
+        )
         sys.exit(1)
+
+
+@app.command()
+def new(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Where the study is to be.")]) -> None:
+    """Write a new study from the template; it runs as it is."""
+    from study.new import new_study
+
+    protocol = new_study(folder)
+    console.print(f"{protocol} is written. Change it, then: study check {folder}, and: study run {folder}")
+
+
+@app.command()
+def check(path: ProtocolPath, as_json: AsJson = False) -> None:
+    """Check everything that can be known before the first participant comes."""
+    from study.check import check as check_protocol
+
+    with console.status("checking …"):
+        report = check_protocol(_load(path))
+    if as_json:
+        _print_json(report.as_json())
+    else:
+        console.print(escape(str(report)))
+    raise typer.Exit(0 if report.good else 1)
+
+
+@app.command()
+def preview(
+    path: ProtocolPath,
+    stimulus: Annotated[str | None, typer.Argument(metavar="[STIMULUS]", help="All unless told.")] = None,
+    clips: Clips = None,
+) -> None:
+    """Draw a contact sheet of the clips, and print what describes their motion."""
+    from stimuli.contact_sheet import contact_sheet
+    from stimuli.manifest import Manifest
+
+    protocol = _load(path)
+    folder = clips or protocol.folder / "stimuli"
+    manifest = Manifest.load(folder)
+    shown = list(manifest.clips) if stimulus is None else [stimulus]
+    sheet = folder / ("contact_sheet.png" if stimulus is None else f"{stimulus}.png")
+    contact_sheet(manifest, folder, sheet, stimuli=shown)
+    console.print(f"{sheet} is drawn.")
 
 
 @app.command()
@@ -83,17 +136,21 @@ def serve(
     path: ProtocolPath,
     clips: Clips = None,
     data: Data = None,
-    database: Annotated[str | None, typer.Option(help="Database URL; SQLite in the data folder unless told.")] = None,
+    database: Database = None,
     host: str = "127.0.0.1",
     port: int = 8000,
-    test: Annotated[bool, typer.Option("--test", help="Try the study out: answers are marked and kept apart.")] = False,
+    test: Annotated[
+        bool, typer.Option("--test", help="Try the study out: answers are marked and kept apart.")
+    ] = False,
 ) -> None:
     """Serve the study with the clips there are."""
     from stimuli.manifest import Manifest
 
     protocol = _load(path)
     folder = clips or protocol.folder / "stimuli"
-    _serve(protocol, Manifest.load(folder), folder, data=data, database=database, host=host, port=port, test=test)
+    _serve(
+        protocol, Manifest.load(folder), folder, data=data, database=database, host=host, port=port, test=test
+    )
 
 
 def _serve(
@@ -134,7 +191,7 @@ def _serve(
 def rehearse(
     path: ProtocolPath,
     n: Annotated[int, typer.Option("-n", min=1, help="Simulated participants.")] = 34,
-    out: Annotated[Path, typer.Option("--out", help="Folder to write into.")] = Path("rehearsal"),
+    out: Out = Path("rehearsal"),
     clips: Clips = None,
 ) -> None:
     """Let simulated participants take the whole study over HTTP, then analyse what they left."""
@@ -145,18 +202,20 @@ def rehearse(
 
     protocol = _load(path)
     folder = clips or protocol.folder / "stimuli"
-    with _progress("participants", n) as advance:
-        table = let_them_come(protocol, n, out, clips=clips_of(Manifest.load(folder), folder), progress=advance)
+    with console.status(f"{n} simulated participants take the study …"):
+        table = let_them_come(protocol, n, out, clips=clips_of(Manifest.load(folder), folder))
     analyse_responses(table, protocol, out)
-    console.print(f"{n} [bold]simulated[/] participants (no data) took the study. Their report: {out / 'report.html'}")
+    console.print(
+        f"{n} [bold]simulated[/] participants (no data) took the study. The report: {out / 'report.html'}"
+    )
 
 
 @app.command()
 def export(
     path: ProtocolPath,
-    out: Annotated[Path, typer.Option("--out", help="Folder to write into.")] = Path("export"),
+    out: Out = Path("export"),
     data: Data = None,
-    database: Annotated[str | None, typer.Option(help="Database URL.")] = None,
+    database: Database = None,
     clips: Clips = None,
 ) -> None:
     """Write the answers as a table, with the codebook that explains it."""
@@ -169,7 +228,9 @@ def export(
     folder = clips or protocol.folder / "stimuli"
     file = (data or protocol.folder / "data") / "study.db"
     if database is None and not file.exists():
-        raise InputError(f"{file}: no answers yet. `study run {path}` opens the study; --data names another folder.")
+        raise InputError(
+            f"{file}: no answers yet. `study run {path}` opens the study; --data names another folder"
+        )
     store = open_store(database or f"sqlite:///{file}")
     table = export_responses(store, protocol, out, clips=hashes(clips_of(Manifest.load(folder), folder)))
     store.close()
@@ -180,7 +241,7 @@ def export(
 def analyse(
     responses: Annotated[Path, typer.Argument(metavar="RESPONSES.csv", help="Answers, one row per item.")],
     protocol: Annotated[Path, typer.Option("--protocol", help="Protocol folder, or its YAML file.")],
-    out: Annotated[Path, typer.Option("--out", help="Folder to write into.")] = Path("report"),
+    out: Out = Path("report"),
 ) -> None:
     """Carry out the protocol's plan of analysis: statistics, tables, figures and the report."""
     from analysis.report import analyse as analyse_responses
@@ -192,29 +253,78 @@ def analyse(
 @app.command()
 def orders(
     path: ProtocolPath,
-    n: Annotated[int, typer.Option("-n", min=1, help="Participants.")] = 36,
+    n: Annotated[int | None, typer.Option("-n", min=1, help="Participants; as planned unless told.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Print who sees what when, and how well that is balanced."""
-    from study.orders import balance, draw_plan, orders_csv
+    """Print who sees what when as CSV, and how well that is balanced."""
+    from study.balance import balance, balance_table, orders_csv
+    from study.orders import draw_plan
 
     protocol = _load(path)
-    plans = [draw_plan(protocol, slot) for slot in range(n)]
+    plans = [draw_plan(protocol, slot) for slot in range(n or protocol.participants.planned)]
+    counts = balance(protocol, plans)
     if as_json:
-        _print_json(balance(plans))
-        return
-    sys.stdout.write(orders_csv(plans))
+        _print_json([asdict(plan) for plan in plans])
+    else:
+        sys.stdout.write(orders_csv(plans))
+        sys.stdout.flush()
+        Console(stderr=True, highlight=False).print(balance_table(counts))
 
 
 @app.command()
-def doctor(as_json: AsJson = False) -> None:
+def power(path: ProtocolPath) -> None:
+    """Say what the planned participants can show: the effects found with a power of .80."""
+    from study.power import power as power_of
+
+    for found in power_of(_load(path)):
+        console.print(str(found))
+
+
+@app.command()
+def preregister(
+    path: ProtocolPath,
+    out: Annotated[Path | None, typer.Option("--out", help="File to write; the screen unless told.")] = None,
+) -> None:
+    """Write the preregistration that follows from the protocol, in Markdown."""
+    from study.preregister import preregister as preregistration
+
+    _write(preregistration(_load(path)), out)
+
+
+@app.command()
+def verify(
+    table: Annotated[
+        Path, typer.Argument(metavar="TABLE.csv", help="The printed numbers, with their decimals.")
+    ],
+    n: Annotated[int, typer.Option("-n", min=2, help="Participants.")],
+    items: Annotated[int, typer.Option(min=1, help="Items behind each mean.")] = 1,
+) -> None:
+    """Check a published table: can these numbers come from n participants, and which tests follow?"""
+    from analysis.published import verify as verify_table
+
+    found = verify_table(table, n, items=items)
+    console.print(str(found))
+    raise typer.Exit(1 if found.faults else 0)
+
+
+@app.command()
+def figures(out: Out = Path("figures")) -> None:
+    """Draw the paper's figures of the method from this code."""
+    from stimuli.figures import draw_paper_figures
+
+    with console.status("drawing …"):
+        draw_paper_figures(out)
+    console.print(f"The paper's figures are in {out}.")
+
+
+@app.command()
+def doctor() -> None:
     """Say whether this machine can render and serve, and what to install where not."""
     from stimuli.doctor import examine
 
     report = examine()
-    for line in report.lines:
-        console.print(line)
-    raise typer.Exit(0 if report.can_render else 1)
+    console.print(str(report))
+    raise typer.Exit(0 if report.good else 1)
 
 
 def _load(path: Path) -> Protocol:
@@ -245,6 +355,14 @@ def _progress(what: str, total: int | None) -> Iterator[Any]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as shown:
         task = shown.add_task(what, total=total)
         yield lambda done, of=None: shown.update(task, completed=done, total=of or total)
+
+
+def _write(text: str, out: Path | None) -> None:
+    if out is None:
+        sys.stdout.write(text)
+        return
+    out.write_text(text, encoding="utf-8")
+    console.print(f"{out} is written.")
 
 
 def _print_json(value: Any) -> None:
