@@ -57,10 +57,12 @@ class Report:
         return "\n".join(f"{line.state:8}{line}" for line in self.lines)
 
 
-def examine(folder: Path | None = None, environment: Mapping[str, str] | None = None) -> Report:
+def examine(
+    folder: Path | None = None, environment: Mapping[str, str] | None = None, *, needed_mb: int = NEEDED_MB
+) -> Report:
     """Try drawing through EGL and OSMesa, encoding and free disk space; `folder` is where clips would go."""
     env = dict(os.environ if environment is None else environment)
-    return Report((*_drawing(env), _encoder(), _disk(folder or Path.cwd())))
+    return Report((*_drawing(env), _encoder(), _disk(folder or Path.cwd(), needed_mb)))
 
 
 def _drawing(env: Mapping[str, str]) -> list[Line]:
@@ -113,9 +115,9 @@ def _encoder() -> Line:
     )
 
 
-def _disk(folder: Path) -> Line:
+def _disk(folder: Path, needed_mb: int) -> Line:
     there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
     free = shutil.disk_usage(there).free // 2**20
-    if free < NEEDED_MB:
-        return Line("bad", f"disk at {there}", f"{free} MB free", f"Free at least {NEEDED_MB} MB.")
+    if free < needed_mb:
+        return Line("bad", f"disk at {there}", f"{free} MB free", f"Free at least {needed_mb} MB.")
     return Line("good", f"disk at {there}", f"{free / 1024:.1f} GB free")
