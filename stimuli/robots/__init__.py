@@ -22,11 +22,18 @@ ROBOTS: tuple[str, ...] = tuple(
 )
 
 
-def load_robot(name_or_path: str, base: Path) -> Robot:  # noqa: ARG001
-    """The packaged robot of that name."""
+def load_robot(name_or_path: str, base: Path) -> Robot:
+    """The packaged robot of that name, or the one a YAML file describes, its path relative to `base`."""
     if name_or_path in ROBOTS:
         robot: Robot = import_module(f"{__name__}.{name_or_path}").load()
         return robot
+    if name_or_path.endswith((".yaml", ".yml")):
+        from stimuli.robots.files import read_robot
+
+        return read_robot(base / name_or_path)
     near = difflib.get_close_matches(name_or_path, ROBOTS, n=1)
     hint = f" Did you mean {near[0]!r}?" if near else ""
-    raise InputError(f"robot: {name_or_path!r} is not a robot.{hint} Known: {', '.join(ROBOTS)}.")
+    raise InputError(
+        f"robot: {name_or_path!r} is not a robot.{hint} "
+        f"Known: {', '.join(ROBOTS)}, or the path of a robot file."
+    )
