@@ -14,6 +14,7 @@ from stimuli.motion import generate
 from stimuli.robots import load_robot
 from study.balance import balance
 from study.orders import cycle, draw_plan
+from study.power import power
 from study.protocol import Problem, Protocol
 from study.specs import specs
 from study.text import Text
@@ -174,6 +175,7 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
 
 def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
     hypotheses = protocol.analysis.hypotheses
+    powers = {found.hypothesis: f"\n{found}" for found in power(protocol)}
     if not hypotheses:
         yield Finding("mind", "analysis", "no hypothesis is declared; tests chosen after the data prove less")
     for name, hypothesis in hypotheses.items():
@@ -183,5 +185,6 @@ def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
         yield Finding(
             "good",
             name,
-            f"{hypothesis.part}: {hypothesis.test}, {tested}, {hypothesis.alternative}{corrected}{mirrored}",
+            f"{hypothesis.part}: {hypothesis.test}, {tested}, {hypothesis.alternative}{corrected}{mirrored}"
+            f"{powers.get(name, '')}",
         )

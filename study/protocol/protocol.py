@@ -182,7 +182,7 @@ class Protocol(Written):
     @cached_property
     def length(self) -> tuple[int, int]:
         """How many videos a participant sees, and how many minutes it takes, estimated or as told."""
-        videos, seconds = 0, 60.0
+        videos, seconds = (1, 90.0) if self.practice else (0, 60.0)
         for part in self.written_parts:
             judged, items, clips = self._pages(part)
             videos += judged * clips

@@ -24,6 +24,7 @@ EXAMPLES: dict[str, dict[str, object]] = {
         "options": {"lower": {"en": "lower"}, "higher": {"en": "higher"}},
         "sides": "balanced",
     },
+    "differential": {"set": "godspeed", "points": 7},
     "number": {"item": "age", "text": "Age?", "least": 18, "most": 120, "whole": True},
     "select": {"item": "gender", "text": "Gender?", "options": ["female", "male", "other"]},
     "text": {"item": "remarks", "text": "Remarks?", "longest": 500},
@@ -120,3 +121,24 @@ def test_the_target_is_rated_above_the_rest_and_chance_is_not():
 def test_labels_need_as_many_texts_in_each_language():
     with pytest.raises(ValidationError, match="2 in en, 1 in de"):
         made("rate", ends={"en": ["no", "yes"], "de": ["nein"]})
+
+
+def test_godspeed_has_its_24_items_in_five_series_and_scores_their_means():
+    question = made("differential")
+    sizes = [list(question.series.values()).count(name) for name in dict.fromkeys(question.series.values())]
+    assert sizes == [5, 6, 5, 5, 3]
+    answers = dict.fromkeys(question.items, "4") | {"relaxed": "1", "calm": "", "surprised": "2"}
+    assert question.scores(answers)["safety"] == 1.5
+    assert question.scores(answers)["animacy"] == 4
+    assert question.scores({}) == {}
+
+
+def test_a_series_can_be_asked_alone():
+    question = ASKED.validate_python({"differential": {"set": "godspeed animacy"}})
+    assert list(question.items) == ["alive", "lively", "organic", "lifelike_2", "interactive", "responsive"]
+    assert question.items["alive"].in_("en") == "Dead – Alive"
+
+
+def test_an_unknown_set_is_refused_with_the_nearest():
+    with pytest.raises(ValidationError, match="did you mean godspeed animacy"):
+        ASKED.validate_python({"differential": {"set": "godspeed animacyy"}})

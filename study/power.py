@@ -1,0 +1,141 @@
+"""How small an effect the planned participants can find.
+
+Each hypothesis is taken at the smallest level its correction can leave a single test (alpha / m). Ratings:
+the effect is d, the difference in standard deviations. Choices between two levels: the effect is the share h
+of participants who choose the outcome for the first level when 1 - h choose it for the second, answers given
+independently; the test counted is McNemar's exact one, whatever test the hypothesis names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Literal
+
+import numpy as np
+from scipy import stats
+
+from study.protocol import Hypothesis, Protocol
+
+AIM = 0.8
+MAX_PARTICIPANTS = 2000
+Effect = Literal["d", "share"]
+
+
+@dataclass(frozen=True)
+class Power:
+    """What one hypothesis can find with n participants."""
+
+    hypothesis: str
+    n: int
+    tests: int  # in its family
+    alpha: float  # of the hardest test of the family
+    effect: Effect
+    smallest: float | None  # effect found with a power of 80 %; None where none can be
+    needed: dict[float, int | None]  # assumed effect → participants for a power of 80 %
+
+    def __str__(self) -> str:
+        if self.smallest is None:
+            return f"{self.n} participants cannot reach a power of {AIM:.0%} at alpha {self.alpha:.3g}"
+        found = f"d ≥ {self.smallest:.2f}" if self.effect == "d" else f"a share ≥ {self.smallest:.2f}"
+        return f"{self.n} participants find {found} with a power of {AIM:.0%}"
+
+
+def power(protocol: Protocol) -> list[Power]:
+    """What each hypothesis of a protocol can find with the planned participants."""
+    return [
+        _power(protocol, name, hypothesis)
+        for name, hypothesis in protocol.analysis.hypotheses.items()
+        if hypothesis.mirrors is None
+    ]
+
+
+def t_power(n: int, d: float, alpha: float, *, two_sided: bool = False, groups: int = 1) -> float:
+    """Power of a one-sample (or paired) t-test, or of a two-sample one with n in each of two groups.
+
+    Noncentral t; of a two-sided test both tails count. Agrees with statsmodels (tests/study/test_power.py).
+    """
+    df = groups * (n - 1)
+    shift = d * np.sqrt(n / groups)
+    if not two_sided:
+        return float(stats.nct.sf(stats.t.isf(alpha, df), df, shift))
+    critical = stats.t.isf(alpha / 2, df)
+    return float(stats.nct.sf(critical, df, shift) + stats.nct.cdf(-critical, df, shift))
+
+
+def mcnemar_power(n: int, first: float, second: float, alpha: float, *, two_sided: bool = False) -> float:
+    """Exact power of McNemar's exact test where the levels get the outcome with these probabilities."""
+    gained, lost = first * (1 - second), second * (1 - first)
+    changed = gained + lost
+    if changed == 0:
+        return 0.0
+    one_sided = alpha / 2 if two_sided else alpha
+    pairs = range(n + 1)  # participants who answer differently for the two levels
+    rejected = np.array([_rejected(m, gained / changed, one_sided) for m in pairs])
+    return float(stats.binom.pmf(pairs, n, changed) @ rejected)
+
+
+def _rejected(m: int, gained: float, alpha: float) -> float:
+    """The chance that m pairs reject the null of equal halves, in favour of more gains."""
+    return float(stats.binom.sf(_critical(m, alpha) - 1, m, gained))
+
+
+@cache
+def _critical(m: int, alpha: float) -> int:
+    """The smallest number of gains among m pairs that is significant; m + 1 where none is."""
+    tails = stats.binom.sf(np.arange(m + 1) - 1, m, 0.5)
+    return int(np.argmax(tails <= alpha)) if tails[-1] <= alpha else m + 1
+
+
+def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
+    n = protocol.participants.planned
+    stimuli = protocol.stimuli_of(hypothesis.part)
+    items = {item for question in protocol.written_parts[hypothesis.part].ask for item in question.items}
+    if hypothesis.compare is None:
+        tests = sum(stimulus.name in items for stimulus in stimuli)
+    else:
+        tests = sum(stimulus.level == hypothesis.compare[0] for stimulus in stimuli)
+    corrected = hypothesis.correction in {"holm", "bonferroni"}
+    alpha = protocol.analysis.alpha / (tests if corrected else 1)
+    two_sided = hypothesis.alternative == "two-sided"
+    effect: Effect = "d" if hypothesis.outcome is None else "share"
+
+    def at(participants: int, size: float) -> float:
+        if effect == "share":
+            return mcnemar_power(participants, size, 1 - size, alpha, two_sided=two_sided)
+        groups = 2 if hypothesis.test == "independent t" else 1
+        return t_power(participants, size, alpha, two_sided=two_sided, groups=groups)
+
+    largest, assumed = (5.0, (0.2, 0.5, 0.8)) if effect == "d" else (1.0, (0.6, 0.7, 0.8))
+    least = 0.0 if effect == "d" else 0.5
+    return Power(
+        hypothesis=name,
+        n=n,
+        tests=tests,
+        alpha=alpha,
+        effect=effect,
+        smallest=_smallest(lambda size: at(n, size), least, largest) if n > 1 else None,
+        needed={size: _needed(partial(at, size=size)) for size in assumed},
+    )
+
+
+def _smallest(at: Callable[[float], float], low: float, high: float) -> float | None:
+    """The smallest effect with enough power, by bisection to 0.001."""
+    if at(high) < AIM:
+        return None
+    while high - low > 0.001:
+        middle = (low + high) / 2
+        low, high = (low, middle) if at(middle) >= AIM else (middle, high)
+    return high
+
+
+def _needed(at: Callable[[int], float]) -> int | None:
+    """The number of participants from which on the power suffices; None beyond 2000."""
+    low, high = 2, MAX_PARTICIPANTS
+    if at(high) < AIM:
+        return None
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (low, middle) if at(middle) >= AIM else (middle + 1, high)
+    return high

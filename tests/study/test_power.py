@@ -1,0 +1,51 @@
+"""Power agrees with statsmodels, with counting all outcomes, and grows with what should make it grow."""
+
+from itertools import product
+from pathlib import Path
+
+import pytest
+from scipy.stats import binom, binomtest
+from statsmodels.stats.power import TTestIndPower, TTestPower
+
+from study.power import AIM, mcnemar_power, power, t_power
+from study.protocol import load_protocol
+
+PAPER = load_protocol(Path(__file__).parents[2] / "protocols" / "hielscher2025")
+
+
+@pytest.mark.parametrize(
+    ("n", "d", "alpha"), [(10, 0.5, 0.05), (34, 0.5, 0.05), (36, 0.3, 0.05 / 6), (120, 0.2, 0.01)]
+)
+def test_power_of_t_tests_agrees_with_statsmodels(n, d, alpha):
+    one = TTestPower().power(d, n, alpha, alternative="larger")
+    assert t_power(n, d, alpha) == pytest.approx(one, abs=1e-9)
+    two_sided = TTestPower().power(d, n, alpha, alternative="two-sided")
+    assert t_power(n, d, alpha, two_sided=True) == pytest.approx(two_sided, abs=1e-9)
+    groups = TTestIndPower().power(d, n, alpha, alternative="larger")
+    assert t_power(n, d, alpha, groups=2) == pytest.approx(groups, abs=1e-9)
+
+
+@pytest.mark.parametrize(("n", "first", "second"), [(8, 0.8, 0.3), (12, 0.7, 0.4), (15, 1.0, 0.0)])
+def test_mcnemar_power_agrees_with_counting_every_outcome(n, first, second):
+    gain, loss = first * (1 - second), second * (1 - first)
+    total = 0.0
+    for b, c in product(range(n + 1), repeat=2):
+        if b + c <= n and b + c > 0 and binomtest(b, b + c, 0.5, alternative="greater").pvalue <= 0.05:
+            total += binom.pmf(b, n, gain) * binom.pmf(c, n - b, loss / (1 - gain) if gain < 1 else 0)
+    assert mcnemar_power(n, first, second, 0.05) == pytest.approx(total, abs=1e-12)
+
+
+def test_without_an_effect_power_is_at_most_alpha():
+    assert t_power(36, 0.0, 0.05) == pytest.approx(0.05)
+    assert mcnemar_power(36, 0.5, 0.5, 0.05) <= 0.05
+    assert mcnemar_power(36, 1.0, 1.0, 0.05) == 0.0
+
+
+def test_each_hypothesis_that_counts_has_a_smallest_effect():
+    powers = {found.hypothesis: found for found in power(PAPER)}
+    assert set(powers) == {"H1", "H2.1"}  # H2.2 mirrors H2.1
+    assert powers["H1"].tests == powers["H2.1"].tests == 6
+    assert powers["H1"].smallest is not None
+    assert t_power(36, powers["H1"].smallest, powers["H1"].alpha) == pytest.approx(AIM, abs=0.002)
+    needed = [n for n in powers["H2.1"].needed.values() if n]
+    assert needed == sorted(needed, reverse=True)
