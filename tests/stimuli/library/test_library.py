@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import functools
 import hashlib
 import json
 import os
@@ -226,3 +228,19 @@ def test_leftovers_of_running_processes_are_not_swept_away(
     own.write_bytes(b"being written")
     render_missing([], {"pepper": pepper}, tmp_path)
     assert own.exists()
+
+
+def test_a_stimulus_whose_worker_dies_each_time_is_named(
+    gesture: Path, pepper: Robot, tmp_path: Path
+) -> None:
+    deadly = dataclasses.replace(pepper, build=functools.partial(os._exit, 9), sha256="0" * 64)
+    with pytest.raises(InputError, match=r"died 2 times; not rendered: doomed\."):
+        render_missing([spec(gesture, deadly, "doomed")], {"pepper": deadly}, tmp_path, workers=1)
+    assert not list(tmp_path.glob("*.mp4"))
+
+
+def test_a_motion_the_robot_cannot_do_stops_the_run_with_its_reason(
+    gesture: Path, pepper: Robot, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=r"^wild: HeadPitch at .* limit"):
+        render_missing([spec(gesture, pepper, "wild", exa=9)], {"pepper": pepper}, tmp_path, workers=1)
