@@ -17,7 +17,7 @@ from pydantic import Field, model_validator
 
 from study.questions.question import Question
 from study.text import Ends, Text
-from study.written import nearest, wrong
+from study.written import nearest, wrong, wrong_at
 
 GODSPEED = "godspeed"
 
@@ -27,7 +27,8 @@ class Differential(Question):
 
     kind: ClassVar[str] = "differential"
     text: Text = Text("How did the robot appear to you?")
-    pairs: dict[str, Ends] = Field(min_length=1)
+    set: str | None = None  # a ready set of pairs
+    pairs: dict[str, Ends] = Field(default_factory=dict)
     points: int = Field(5, ge=2, le=11)
     series: dict[str, str] = Field(default_factory=dict)  # item → the scale it is scored in
     item_order: Literal["fixed", "shuffled"] = "fixed"  # shuffled: once per participant, then the same
@@ -35,12 +36,14 @@ class Differential(Question):
     @model_validator(mode="before")
     @classmethod
     def _from_a_set(cls, value: Any) -> Any:
-        if not isinstance(value, Mapping) or "set" not in value:
+        if not isinstance(value, Mapping) or not (value.get("set") or value.get("pairs")):
+            raise wrong("needs pairs of opposites, or a set such as godspeed")
+        if not value.get("set"):
             return value
         sets = question_sets()
         if value["set"] not in sets:
-            raise wrong(f"set '{value['set']}' is not known; {nearest(value['set'], sets)}")
-        return sets[value["set"]] | {key: inner for key, inner in value.items() if key != "set"}
+            raise wrong_at(("set",), f"is no set of questions; {nearest(value['set'], sets)}", value["set"])
+        return sets[value["set"]] | dict(value)
 
     @property
     def items(self) -> Mapping[str, Text]:
