@@ -25,6 +25,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from stimuli.attractor import basis
 from stimuli.course import Course, Scheme
+from stimuli.ends import eased, rests_at_ends
 from stimuli.errors import InputError
 from stimuli.principles import Modulation
 from stimuli.relations import relations_of
@@ -48,6 +49,9 @@ class Learning(BaseModel):
         1e-10, gt=0, le=1
     )  # of ridge, relative to the mean square response; 1e-6 if noisy
     scheme: Scheme = "foh"
+    moving_ends: Literal["ease", "refuse"] = (
+        "ease"  # what to do with a demonstration that does not rest there
+    )
     dt_s: float = Field(0.01, gt=0, le=1)
 
 
@@ -69,7 +73,11 @@ class Primitive:
         learning = learning or Learning()
         if not demonstration.duration_s > 0:
             raise InputError("A demonstration needs at least two samples at different times")
-        shown = demonstration.resampled(learning.dt_s)
+        if learning.moving_ends == "refuse" and not all(rests_at_ends(demonstration)):
+            raise InputError(
+                "The demonstration moves at its start or end; let it rest there, or set moving_ends: ease"
+            )
+        shown = eased(demonstration.resampled(learning.dt_s))
         offsets = shown.positions - shown.positions[0]  # (n + 1, d)
         fit = _ridge if learning.method == "ridge" else _locally_weighted
         return cls(

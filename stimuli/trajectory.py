@@ -59,6 +59,8 @@ class Trajectory:
         times = even_times(self.duration_s, dt_s)
         if len(times) == len(self.times):
             return self
-        return Trajectory(
-            times, PchipInterpolator(self.times - self.times[0], self.positions)(times), self.joints
-        )
+        return Trajectory(times, self.resampled_at(times + self.times[0]), self.joints)
+
+    def resampled_at(self, times: FloatArray) -> FloatArray:
+        """Positions at these times, (len(times), d), by monotone cubics (PCHIP)."""
+        return np.asarray(PchipInterpolator(self.times, self.positions)(times), dtype=np.float64)

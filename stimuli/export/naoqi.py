@@ -25,7 +25,7 @@ class MotionService(Protocol):
 
 
 def angle_interpolation(trajectory: Trajectory, dt_s: float = 0.04) -> dict[str, object]:
-    """Arguments for ALMotion: names, angles and times (a list per joint each), and that angles are absolute."""
+    """Arguments for ALMotion: names, angles, times (a list per joint each), and that angles are absolute."""
     times: FloatArray = even_times(trajectory.duration_s, dt_s)
     angles = trajectory.at(times).T.tolist()
     moments = (times + APPROACH_S).tolist()

@@ -3,7 +3,7 @@
     names.append("HeadYaw"); times.append([0.4, 1.2]); keys.append([0.1, [-0.2, [3, -0.1, 0], [3, 0.1, 0]]])
 
 A key is an angle, or an angle with its left and right handle, [type, time, angle] as offsets from the key:
-type 3 is Bezier, others are straight. The lists may also be written at once, `names = [...]`. Only literals count.
+type 3 is Bezier, others are straight. The lists may also be written at once, `names = [...]`, in literals.
 """
 
 from __future__ import annotations

@@ -14,6 +14,7 @@ from scipy.signal import lfilter
 from stimuli.attractor import attractor
 from stimuli.course import Course
 from stimuli.dmp import Learning, Primitive
+from stimuli.ends import eased, rests_at_ends
 from stimuli.errors import InputError
 from stimuli.principles import Modulation
 from stimuli.rollout import integrate
@@ -186,3 +187,20 @@ def test_the_exact_step_hardly_depends_on_the_step_size(robot, demonstrate):
     course = primitive.course(Modulation(), robot)
     coarse, fine = integrate(course, 1 / 60, 180)[0], integrate(course, 1 / 600, 1800)[0][::10]
     assert np.abs(coarse - fine).max() < 5e-3 * np.ptp(fine, axis=0).max()
+
+
+def test_a_demonstration_cut_out_of_a_motion_is_eased_along_the_same_path_or_refused(robot, demonstrate):
+    whole = demonstrate(1)
+    cut = Trajectory(whole.times[:150], whole.positions[60:210], whole.joints)
+    with pytest.raises(InputError, match="moves at its start or end"):
+        Primitive.learn(cut, Learning(moving_ends="refuse"))
+    primitive = Primitive.learn(cut)
+    assert primitive.tau_s == pytest.approx(cut.duration_s + 0.4, abs=0.01)
+    shown = eased(cut)
+    assert all(rests_at_ends(shown))
+    assert np.abs(shown.positions[[0, -1]] - cut.positions[[0, -1]]).max() < 1e-12
+    gaps = np.abs(shown.positions[:, None] - cut.resampled(0.001).positions[None]).max(axis=2).min(axis=1)
+    assert gaps.max() < 5e-3  # nowhere off the path
+    again = integrate(primitive.course(Modulation(), robot), 0.01, len(shown.times) - 1)[0]
+    assert np.abs(again - shown.positions).max() < 1e-2
+    assert eased(whole) is whole
