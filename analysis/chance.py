@@ -63,7 +63,9 @@ def midpoint(target: Target) -> Scores:
 
 def grand_mean(target: Target) -> Scores:
     """The rating against the mean of all ratings, taken as if it were known."""
-    return Scores(target.on_target, null=float(np.nanmean(target.ratings)), estimated=True)
+    ratings = target.ratings[~np.isnan(target.ratings)]
+    null = float(ratings.mean()) if ratings.size else sum(target.scale) / 2
+    return Scores(target.on_target, null=null, estimated=True)
 
 
 def other_stimuli(target: Target) -> Scores:
@@ -117,6 +119,12 @@ def fixed(level: float) -> Definition:
         "agreeing with everything",
         lambda t: Scores(t.on_target, level),
     )
+
+
+def applicable(stimuli: int, items: int) -> dict[str, Definition]:
+    """The definitions by name; with one stimulus or one item only those that need no others."""
+    alone = ("midpoint", "grand mean")
+    return {name: one for name, one in DEFINITIONS.items() if name in alone or min(stimuli, items) > 1}
 
 
 DEFINITIONS: Mapping[str, Definition] = {

@@ -159,10 +159,10 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
         return unknown_item if stimulus in judged else unknown_stimulus
 
     stimuli, names = rows.names("stimulus"), rows.names("item")
-    places = np.array([[place(stimulus, item) for item in names] for stimulus in stimuli], dtype=np.int64)
+    places = np.array([place(s, i) for s in stimuli for i in names], dtype=np.int64)
     stimulus_codes = rows.codes("stimulus", {name: i for i, name in enumerate(stimuli)})
     item_codes = rows.codes("item", {name: i for i, name in enumerate(names)})
-    which = places[stimulus_codes, item_codes]
+    which: NDArray[np.int64] = places[stimulus_codes * len(names) + item_codes]
     if "part" in rows.frame:  # rows of pages that belong to no part: demographics, attention checks
         elsewhere = rows.codes("part", {"": 0} | dict.fromkeys(protocol.parts, 0)) < 0
         which = np.where(elsewhere, unasked, which)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import wraps
+from functools import cached_property, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
@@ -72,13 +72,14 @@ class Drawing:
     caption: str
     alt: str
 
+    @cached_property
     def svg(self) -> str:
         """As SVG, without a date."""
         return self._bytes("svg", {"Date": None, "Title": self.caption}).decode()
 
     def write(self, folder: Path) -> None:
         """Write NAME.svg, NAME.pdf and NAME.png."""
-        (folder / f"{self.name}.svg").write_text(self.svg(), encoding="utf-8")
+        (folder / f"{self.name}.svg").write_text(self.svg, encoding="utf-8")
         (folder / f"{self.name}.pdf").write_bytes(self._bytes("pdf", {"CreationDate": None}))
         (folder / f"{self.name}.png").write_bytes(self._bytes("png", {"Software": None}))
 
@@ -196,15 +197,15 @@ def _legend(figure: Figure, items: Sequence[str], labels: Mapping[str, str]) -> 
 @styled
 def draw_levels(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
     """Share of the outcome at both levels of each principle, with Wilson intervals and counts."""
+    from matplotlib.lines import Line2D
+
     figure, axes = _canvas(height_in=1.9)
     looks = (("o", COLOURS[4], 1), ("v", COLOURS[3], -1))
     names = list(outcome.results)
     for x, one in enumerate(outcome.results.values()):
         if one.choices is None:
             continue
-        for (level, (k, other)), (marker, colour, side) in zip(
-            one.choices.counts.items(), looks, strict=True
-        ):
+        for (k, other), (marker, colour, side) in zip(one.choices.counts.values(), looks, strict=True):
             limits = wilson(k, k + other)
             if limits is None:
                 continue
@@ -212,7 +213,7 @@ def draw_levels(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
             axes.errorbar(
                 x - 0.12 * side, share, yerr=[[share - limits[0]], [limits[1] - share]], color=colour,
                 marker=marker, markersize=4, elinewidth=0.9, capsize=2, capthick=0.9, zorder=3,
-                linestyle="", label=level if x == 0 else None,
+                linestyle="",
             )  # fmt: skip
             axes.annotate(
                 f"{k}/{k + other}", (x - 0.12 * side, share), xytext=(-5 * side, 0),
@@ -226,8 +227,12 @@ def draw_levels(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
     axes.set_xticks(range(len(names)), [labels.get(name, name.capitalize()) for name in names])
     axes.tick_params(axis="x", length=0)
     axes.set_ylabel(f"Share “{outcome.comparison.outcome}”, 95% CI")
-    figure.legend(loc="outside upper center", ncols=2, title=None, handletextpad=0.3)
     first, second = outcome.comparison.levels
+    handles = [
+        Line2D([], [], linestyle="", marker=marker, markersize=4, color=colour, label=level)
+        for level, (marker, colour, _) in zip((first, second), looks, strict=True)
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=2, handletextpad=0.1)
     return Drawing(
         name=outcome.part,
         figure=figure,

@@ -9,7 +9,6 @@ from platform import python_version
 from typing import TYPE_CHECKING, Any
 
 from analysis import apa
-from analysis.chance import DEFINITIONS
 from analysis.dataset import read_responses
 from analysis.figures import Drawing, draw_levels, draw_targets
 from analysis.glossary import GLOSSARY, THREATS
@@ -103,7 +102,6 @@ def html(results: Results, protocol: Protocol, drawings: dict[str, Drawing], lab
         apa=apa,
         glossary=GLOSSARY,
         threats=THREATS,
-        definitions=DEFINITIONS,
         drawings=drawings,
         texts={name: _text(protocol, name, outcome) for name, outcome in findings.outcomes.items()},
         targets=[outcome for outcome in findings.outcomes.values() if isinstance(outcome, Targets)],

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.chance import DEFINITIONS, Definition, Scores, Target
+from analysis.chance import Definition, Scores, Target, applicable
 from analysis.dataset import Answers
 from analysis.statistics.adjustment import Correction, adjust
 from analysis.statistics.binomial import Binomial, binomial
@@ -108,7 +108,7 @@ def recognition(
     ranks = {s: _wilcoxon(main[s], target, judging.alternative) for s, target in places.items()}
     sensitivity = {
         name: {s: against_chance(other, target, judging.alternative) for s, target in places.items()}
-        for name, other in DEFINITIONS.items()
+        for name, other in applicable(len(answers.stimuli), len(answers.items)).items()
     }
     verdicts = judge(judging, {s: _deciding(judging.test, main[s], ranks[s]) for s in targets})
     other_verdicts = {
