@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from analysis.statistics.binomial import binomial_probability
 from analysis.statistics.samples import observed
 from analysis.statistics.t_test import Alternative
 
@@ -33,13 +34,23 @@ def sign_flip(values: ArrayLike, null: float = 0.0, alternative: Alternative = "
     n = differences.size
     if n == 0:
         return SignFlip(0, None, None, alternative, reason="undefined: no values")
+    if n > EXACT_UP_TO and np.ptp(np.abs(differences)) > 0:
+        reason = f"not computed: exact only up to {EXACT_UP_TO} values"
+        return SignFlip(n, float(differences.mean()), None, alternative, reason=reason)
     steps = on_grid(differences)
     if steps is None:
         return SignFlip(
             n, float(differences.mean()), None, alternative, reason="differences have no common grid"
         )
-    p = flip_probability(np.abs(steps), int(steps[steps > 0].sum()), alternative)
+    if np.ptp(np.abs(steps)) == 0 and steps[0] != 0:  # all of one size: the sign test
+        p = max(binomial_probability(int((steps > 0).sum()), n, 0.5, alternative), SMALLEST)
+    else:
+        p = flip_probability(np.abs(steps), int(steps[steps > 0].sum()), alternative)
     return SignFlip(n, float(differences.mean()), p, alternative)
+
+
+EXACT_UP_TO = 500  # the distribution takes n² steps of the grid
+SMALLEST = 5e-324  # a probability below the smallest positive number is not 0
 
 
 def flip_probability(

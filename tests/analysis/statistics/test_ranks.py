@@ -48,6 +48,11 @@ def test_sign_flip_counts_the_assignments_of_signs(differences: list[float]) -> 
     assert sign_flip(differences, 0, "greater").p == pytest.approx(share)
 
 
+def test_large_samples_have_an_exact_probability_where_it_is_cheap() -> None:
+    assert sign_flip([5] * 20_000, 3, "greater").p > 0
+    assert sign_flip([4, 2, 5] * 1000, 3).reason == "not computed: exact only up to 500 values"
+
+
 def test_constant_ratings_have_an_exact_probability_and_no_rank_test_at_the_null() -> None:
     assert sign_flip([5] * 34, 3, "greater").p == pytest.approx(2.0**-34)
     assert wilcoxon([3, 3, 3], null=3).reason == "undefined: every value is 3"
