@@ -83,8 +83,8 @@ def mutations() -> Iterator[tuple[str, dict[str, Any]]]:
             here = here[key]
         if isinstance(here, dict):
             yield f"{name}: unknown field", put((*at, "zzz-unknown!"), {"en": [1]})
-        for wrong in WRONG:
-            if isinstance(here, (dict, list)) or (isinstance(wrong, (list, dict)) and not is_text(at)):
+        for wrong in WRONG if isinstance(here, (dict, list)) else ([], {"nonsense": 1}):
+            if isinstance(here, (dict, list)) or not is_text(at):
                 yield f"{name}: {wrong!r}", put(at, wrong)
         if isinstance(here, (int, float)) and not isinstance(here, bool):
             yield f"{name}: words", put(at, "many")

