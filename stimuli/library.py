@@ -11,6 +11,7 @@ import hashlib
 import importlib.metadata
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -151,10 +152,12 @@ def _rendered(
                 ) from error
         finally:
             _stop(pool)
+            _sweep(folder)
 
 
 def _start_worker(workers: int) -> None:
-    """Runs in each worker before anything is drawn: one thread each where there is a worker per core."""
+    """Runs in each worker first: Ctrl-C is for the parent; one thread where there is a worker per core."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     if workers > 1:
         os.environ.setdefault("LP_NUM_THREADS", "0")
 
