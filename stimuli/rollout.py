@@ -55,19 +55,21 @@ def integrate(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArr
     pull = attractor(course, shares)  # (n + 1, d)
     motion = np.zeros((2, *pull.shape))
     for group in groups(course):
-        made, own = motion[:, :, group.columns], pull[:, group.columns]
-        pushed, shift = 0.0 * own, 0.0 * made
+        own = pull[:, group.columns]
         if group.depth:
             shift = motion @ course.displaced[group.columns].T
             pushed = shift[0] + motion[1] @ (2 / course.rate * course.dragging[group.columns].T)
+        else:
+            shift, pushed = np.zeros((2, 1, 1)), np.zeros((1, 1))
         border = anticipating if group.anticipates else 0
-        for part, gain, mirror in (
-            (slice(0, border + 1), group.gain, group.mirror),
-            (slice(border, n + 1), 1.0, 1.0),
-        ):
-            step = step_of(course.scheme, course.rate, h, gain)
-            made[:, part] = respond(mirror * own[part] + pushed[part], made[:, part.start], step)
-        motion[:, :, group.columns] = made - shift
+        made = np.zeros((2, 1, own.shape[1]))
+        if border:
+            turned = group.mirror * own + pushed
+            step = step_of(course.scheme, course.rate, h, group.gain)
+            made = respond(turned[: border + 1], made[:, 0], step)
+        step = step_of(course.scheme, course.rate, h)
+        rest = respond((own + pushed)[border:], made[:, -1], step)
+        motion[:, :, group.columns] = np.concatenate([made[:, :-1], rest], axis=1) - shift
     positions, velocities = motion[0], motion[1] / course.tau_s
     if course.carried is not None:
         positions = positions + velocities @ course.carried.T
