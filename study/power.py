@@ -54,7 +54,8 @@ def power(protocol: Protocol) -> list[Power]:
 def t_power(n: int, d: float, alpha: float, *, two_sided: bool = False, groups: int = 1) -> float:
     """Power of a one-sample (or paired) t-test, or of a two-sample one with n in each of two groups.
 
-    Noncentral t; of a two-sided test both tails count. Agrees with statsmodels (tests/study/test_power.py).
+    Noncentral t; of a two-sided test both tails count. Agrees with R `power.t.test(strict = TRUE)` and
+    statsmodels (tests/study/test_power.py).
     """
     df = groups * (n - 1)
     shift = d * np.sqrt(n / groups)
@@ -115,12 +116,12 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
         tests=tests,
         alpha=alpha,
         effect=effect,
-        smallest=_smallest(lambda size: at(n, size), least, largest) if n > 1 else None,
-        needed={size: _needed(partial(at, size=size)) for size in assumed},
+        smallest=smallest_effect(lambda size: at(n, size), least, largest) if n > 1 else None,
+        needed={size: participants_needed(partial(at, size=size)) for size in assumed},
     )
 
 
-def _smallest(at: Callable[[float], float], low: float, high: float) -> float | None:
+def smallest_effect(at: Callable[[float], float], low: float = 0.0, high: float = 5.0) -> float | None:
     """The smallest effect with enough power, by bisection to 0.001."""
     if at(high) < AIM:
         return None
@@ -130,7 +131,7 @@ def _smallest(at: Callable[[float], float], low: float, high: float) -> float | 
     return high
 
 
-def _needed(at: Callable[[int], float]) -> int | None:
+def participants_needed(at: Callable[[int], float]) -> int | None:
     """The number of participants from which on the power suffices; None beyond 2000."""
     low, high = 2, MAX_PARTICIPANTS
     if at(high) < AIM:

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binom, binomtest
 from statsmodels.stats.power import TTestIndPower, TTestPower
 
-from study.power import AIM, mcnemar_power, power, t_power
+from study.power import AIM, mcnemar_power, participants_needed, power, smallest_effect, t_power
 from study.protocol import load_protocol
 
 PAPER = load_protocol(Path(__file__).parents[2] / "protocols" / "hielscher2025")
@@ -23,6 +23,20 @@ def test_power_of_t_tests_agrees_with_statsmodels(n, d, alpha):
     assert t_power(n, d, alpha, two_sided=True) == pytest.approx(two_sided, abs=1e-9)
     groups = TTestIndPower().power(d, n, alpha, alternative="larger")
     assert t_power(n, d, alpha, groups=2) == pytest.approx(groups, abs=1e-9)
+
+
+def test_power_of_t_tests_agrees_with_r():
+    # R: power.t.test(n = 34, delta = .5, type = …, alternative = …, strict = TRUE)$power
+    assert t_power(34, 0.5, 0.05) == pytest.approx(0.886865311850324, rel=1e-9)
+    assert t_power(34, 0.5, 0.05, groups=2) == pytest.approx(0.653760928907101, rel=1e-9)
+    assert t_power(34, 0.5, 0.05, groups=2, two_sided=True) == pytest.approx(0.528549627105263, rel=1e-9)
+
+
+def test_effects_and_numbers_agree_with_r():
+    # R: power.t.test(power = .8, delta = .5, type = "one.sample", alternative = "one.sided")$n is 26.14
+    assert participants_needed(lambda n: t_power(n, 0.5, 0.05)) == 27
+    # R: power.t.test(n = 34, power = .8, type = "one.sample", alternative = "one.sided")$delta
+    assert smallest_effect(lambda d: t_power(34, d, 0.05)) == pytest.approx(0.435454380370621, abs=1e-3)
 
 
 @pytest.mark.parametrize(("n", "first", "second"), [(8, 0.8, 0.3), (12, 0.7, 0.4), (15, 1.0, 0.0)])

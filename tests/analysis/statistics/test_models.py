@@ -1,4 +1,4 @@
-"""Models, equivalence, Bayes factors and power against R 4.2.2 (ordinal, geepack, BayesFactor, stats)."""
+"""Models, equivalence and Bayes factors against R 4.2.2 (ordinal, geepack, BayesFactor)."""
 
 from __future__ import annotations
 
@@ -18,13 +18,6 @@ from analysis.statistics.equivalence import equivalence
 from analysis.statistics.gee_logistic import gee_logistic
 from analysis.statistics.label_permutation import label_permutation
 from analysis.statistics.one_sample_t import one_sample_t
-from analysis.statistics.power import (
-    binomial_power,
-    mcnemar_power,
-    smallest_effect,
-    t_power,
-    t_sample_size,
-)
 from analysis.statistics.student_t import student_t
 from tests.analysis.statistics.test_agreement import W
 from tests.analysis.statistics.test_t_tests import X
@@ -87,32 +80,6 @@ def test_bayes_factors_agree_with_r() -> None:
     assert jzs_bayes_factor(one_sample_t(X, 3, "less")).bf10 == pytest.approx(0.040184940748826, rel=1e-5)
     assert jzs_bayes_factor(student_t(X, W)).bf10 == pytest.approx(215.136904328656, rel=1e-6)
     assert jzs_bayes_factor(one_sample_t([5, 5], 3)).reason == "undefined: zero variance, every value is 5"
-
-
-def test_power_agrees_with_r() -> None:
-    # R: power.t.test(n = 34, delta = .5, type = …, alternative = …, strict = TRUE)$power
-    assert t_power(0.5, 34) == pytest.approx(0.886865311850324, rel=1e-9)
-    assert t_power(0.5, 34, design="independent") == pytest.approx(0.653760928907101, rel=1e-9)
-    assert t_power(0.5, 34, design="independent", one_sided=False) == pytest.approx(
-        0.528549627105263, rel=1e-9
-    )
-    # R: power.t.test(power = .9, delta = .5, …)$n is 35.65; power.t.test(n = 34, power = .8, …)$delta
-    assert t_sample_size(0.5, 0.9) == 36
-    assert smallest_effect(34) == pytest.approx(0.435454380370621, abs=1e-4)
-
-
-@given(st.floats(0.2, 1.5), st.sampled_from([0.7, 0.8, 0.95]), st.booleans())
-def test_the_sample_size_is_the_smallest_that_reaches_the_power(
-    d: float, power: float, one_sided: bool
-) -> None:
-    n = t_sample_size(d, power, one_sided=one_sided)
-    assert t_power(d, n, one_sided=one_sided) >= power
-    assert n == 2 or t_power(d, n - 1, one_sided=one_sided) < power
-
-
-def test_exact_tests_hold_their_level() -> None:
-    assert binomial_power(0.5, 34) <= 0.05 < binomial_power(0.75, 34)
-    assert mcnemar_power(0.3, 0.3, 20) <= 0.05 < mcnemar_power(0.6, 0.1, 20)
 
 
 def test_the_bootstrap_interval_shrinks_with_n_and_holds_the_mean() -> None:
