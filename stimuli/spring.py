@@ -18,7 +18,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.signal import lfilter
 
 from stimuli.course import Scheme
 from stimuli.errors import InputError
@@ -78,6 +77,8 @@ def respond(chased: FloatArray, state: FloatArray, step: Step) -> FloatArray:
     The recursion x_{k+1} = A x_k + b_k as one filter for positions and velocities alike: by Cayley and
     Hamilton x_{k+2} = tr(A) x_{k+1} - det(A) x_k + b_{k+1} + (A - tr(A)) b_k.
     """
+    from scipy.signal import lfilter  # late: slow to import
+
     if len(chased) == 1:
         return state[:, None]
     (a, b), (c, d) = step.across

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
@@ -63,4 +62,6 @@ class Trajectory:
 
     def resampled_at(self, times: FloatArray) -> FloatArray:
         """Positions at these times, (len(times), d), by monotone cubics (PCHIP)."""
+        from scipy.interpolate import PchipInterpolator  # late: slow to import
+
         return np.asarray(PchipInterpolator(self.times, self.positions)(times), dtype=np.float64)

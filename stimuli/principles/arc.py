@@ -7,7 +7,6 @@ from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.ndimage import gaussian_filter1d
 
 from stimuli.course import Course
 from stimuli.principles.principle import Principle, Stage
@@ -34,6 +33,8 @@ class Arc(Principle):
 
     def modulate(self, course: Course) -> Course:
         """Filter the weights."""
+        from scipy.ndimage import gaussian_filter1d  # late: slow to import
+
         weights = course.weights  # (n_weights, d)
         sigma = abs(self.intensity) * (1 if self.unit == "weights" else len(weights) - 1)
         smooth: np.ndarray = gaussian_filter1d(weights, sigma, axis=0, mode="reflect", truncate=4.0)

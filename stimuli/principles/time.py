@@ -7,7 +7,6 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, Field
-from scipy.interpolate import PchipInterpolator
 
 from stimuli.course import Course, Curve
 from stimuli.principles.principle import Principle, Stage
@@ -55,6 +54,8 @@ class Time(Principle):
 
 def sectors(speeds: tuple[float, ...]) -> Curve:
     """The monotone curve from (0, 0) to (1, 1) with these relative speeds in equally long sectors."""
+    from scipy.interpolate import PchipInterpolator  # late: slow to import
+
     borders = np.linspace(0.0, 1.0, len(speeds) + 1)
     gone = np.concatenate([[0.0], np.cumsum(speeds) / np.sum(speeds)])
     spline = PchipInterpolator(borders, gone)
