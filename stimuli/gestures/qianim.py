@@ -1,14 +1,14 @@
 """Animations of Pepper's makers (`.qianim`): XML, one Bezier curve of keys per joint.
 
 Times count frames at the curve's own rate; a `Tangent` is the offset of a handle from its key. Attributes of
-the editor, in whichever namespace, are not needed. Time begins at the earliest key of all, where the robot
-would have gone from wherever it stood; a joint whose own first key comes later holds that key's value until
-then.
+the editor, in whichever namespace, are not needed. Time begins at frame 0. As on the robot, which goes from
+wherever it stands to the first key, a joint whose first key comes later sets out from home at rest.
 """
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 from stimuli.errors import InputError
@@ -40,15 +40,24 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
             curve, known_joint(name, robot, f"{path}: ActuatorCurve"), f"{path}: ActuatorCurve {name}"
         )
         if keys:
-            curves[name] = keys
+            curves[name] = _from_home(keys, robot.home[name])
     if not curves:
         raise InputError(f"{path}: no ActuatorCurve with keys; an animation has one per joint that moves")
-    begin = min(key.time_s for keys in curves.values() for key in keys)
     end = max(key.time_s for keys in curves.values() for key in keys)
-    if end <= begin:
-        raise InputError(f"{path}: all keys lie in one frame; a gesture needs some duration")
-    times = even_times(end - begin, dt_s)
-    return whole_body(times, {name: sample(keys, times + begin) for name, keys in curves.items()}, robot)
+    if end <= 0:
+        raise InputError(f"{path}: all keys lie in frame 0; a gesture needs some duration")
+    times = even_times(end, dt_s)
+    return whole_body(times, {name: sample(keys, times) for name, keys in curves.items()}, robot)
+
+
+def _from_home(keys: list[Key], home: float) -> list[Key]:
+    """The keys with one at home before them, where the first comes late."""
+    first = min(keys, key=lambda key: key.time_s)
+    if first.time_s <= 0:
+        return keys
+    third = first.time_s / 3  # level handles of a third make the way there ease in and out
+    reached = replace(first, left=first.left or (-third, 0.0))
+    return [Key(0.0, home, None, (third, 0.0)), *(reached if key is first else key for key in keys)]
 
 
 def _keys(curve: ET.Element, joint: Joint, place: str) -> list[Key]:

@@ -84,16 +84,17 @@ def test_a_bad_keyframe_file_is_refused_at_its_line(old, new, message, tmp_path,
     "host",
     ["http://www.aldebaran.com/animation/editor", "http://www.ald.softbankrobotics.com/animation/editor"],
 )
-def test_an_animation_begins_with_its_first_key_and_follows_its_curves(host, tmp_path, robot):
+def test_an_animation_comes_from_home_to_its_first_keys_and_follows_its_curves(host, tmp_path, robot):
     shown = read_gesture(written(tmp_path, "a.qianim", QIANIM.format(namespace=host)), robot)
-    assert shown.duration_s == pytest.approx(1.0)
+    assert shown.duration_s == pytest.approx(2.0)  # from frame 0 to the last key
     elbow, hand = shown.joint("Elbow"), shown.joint("Hand")
-    assert elbow[[0, -1]] == pytest.approx([0, np.pi / 2])
-    assert elbow[50] == pytest.approx(np.pi / 4)  # symmetric
-    assert np.all(np.diff(elbow) > 0)
-    assert elbow[1] < 1e-3  # flat tangents
-    assert np.all(hand[:20] == 0.2)  # its first key comes later
-    assert hand[60] == pytest.approx(0.5)  # without tangents: straight
+    assert elbow[[0, 100, 200]] == pytest.approx([robot.home["Elbow"], 0, np.pi / 2])
+    assert abs(elbow[1] - elbow[0]) < 1e-3  # at rest at home
+    assert elbow[150] == pytest.approx(np.pi / 4)  # symmetric
+    assert np.all(np.diff(elbow[100:]) > 0)
+    assert elbow[101] < 1e-3  # flat tangents
+    assert hand[0] == pytest.approx(robot.home["Hand"])
+    assert hand[[120, 160]] == pytest.approx([0.2, 0.5])  # without tangents: straight
     assert np.all(shown.joint("Hip") == 0.1)  # muted
 
 
@@ -101,7 +102,7 @@ def test_a_bezier_piece_is_the_curve_it_says(tmp_path, robot):
     """Handles of a third of the way, in time and value, make a straight line; cubic ones make the cubic."""
     text = QIANIM.format(namespace="x").replace('abscissaParam="10"', 'abscissaParam="8.3333333333"')
     text = text.replace('abscissaParam="-10"', 'abscissaParam="-8.3333333333"')
-    elbow = read_gesture(written(tmp_path, "a.qianim", text), robot).joint("Elbow")
+    elbow = read_gesture(written(tmp_path, "a.qianim", text), robot).joint("Elbow")[100:]
     s = np.linspace(0, 1, 101)
     assert elbow == pytest.approx(np.pi / 2 * (3 * s**2 - 2 * s**3), abs=1e-8)
 
