@@ -107,7 +107,7 @@ class _Reader:
 
     def read(self) -> Source:
         try:
-            events = iter(yaml.parse(self.text, Loader=yaml.SafeLoader))
+            events = iter(yaml.parse(self.text, Loader=yaml.CSafeLoader))
             value = self._document(events)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
@@ -166,7 +166,7 @@ class _Reader:
 
     def _scalar(self, event: yaml.ScalarEvent) -> Any:
         text = event.value
-        if event.style is not None:  # quoted, or a block of text
+        if event.style:  # quoted, or a block of text
             return text
         if text in {"", "~", "null"}:
             return None

@@ -29,7 +29,7 @@ HOSTILE = {
     "a list": ("- a\n- b\n", "1:1", "must be a mapping"),
     "a key that is a list": ("{[a]: 1}\n", "1:2", "must be plain text"),
     "an open bracket": ("a: [1, 2\nb: 3\n", "2:2", "is not YAML"),
-    "a question mark in braces": ("title: {en: Why?, de: x}\n", "1:", '"quotes"'),
+    "a colon in braces": ("title: {en: Why: because, de: x}\n", "1:", '"quotes"'),
     "a merge of what is not there": ("a: {<<: *base}\n", "1:9", "anchors"),
 }
 
