@@ -13,6 +13,7 @@ import numpy as np
 from stimuli.course import Course
 from stimuli.trajectory import FloatArray, IndexArray
 
+ROUNDING = 1e-9  # share of the duration by which rounding may miss a moment at which something changes
 _RECOVERY = 0.05  # of the duration, in which a bent clock finds back to an even pace after the end
 
 
@@ -58,9 +59,15 @@ def attractor(course: Course, shares: FloatArray) -> FloatArray:
 def filtered_goal(course: Course, shares: FloatArray) -> FloatArray:
     """The goals at these shares of time, (n or 1, d), gliding from the former ones where there is a lag."""
     if course.goal_lag_s == 0 or course.former_goal is None:
-        return course.goal[None]
-    left = np.exp((course.goal_since - shares) * course.tau_s / course.goal_lag_s)[:, None]  # of the way
-    return course.goal + left * (course.former_goal - course.goal)
+        goals = course.goal[None]
+    else:
+        gone = np.maximum(shares - course.goal_since, 0.0) * course.tau_s / course.goal_lag_s
+        left = np.exp(-gone)[:, None]  # of the way
+        goals = course.goal + left * (course.former_goal - course.goal)
+    if course.until_then is None:
+        return goals
+    earlier = (shares < course.goal_since - ROUNDING)[:, None]
+    return np.where(earlier, filtered_goal(course.until_then, shares), goals)
 
 
 def phase(course: Course, shares: FloatArray) -> FloatArray:

@@ -72,6 +72,7 @@ class Course:
     former_goal: FloatArray | None = None  # (d,) goal before a goal that glides …
     goal_lag_s: float = 0.0  # … with this time constant; 0: at once …
     goal_since: float = 0.0  # … from this share of time on
+    until_then: Course | None = None  # whose goals are headed for before that
 
     @property
     def rate(self) -> float:

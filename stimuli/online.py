@@ -7,12 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from stimuli.attractor import Group, attractor, clock, filtered_goal, groups, pace
+from stimuli.attractor import ROUNDING, Group, attractor, clock, filtered_goal, groups, pace
 from stimuli.course import Course
 from stimuli.spring import decay, step_of
 from stimuli.trajectory import FloatArray
-
-ROUNDING = 1e-9  # share of the duration by which rounding may miss the border of a window
 
 
 class Runner:

@@ -9,9 +9,9 @@ import math
 
 import numpy as np
 
-from stimuli.attractor import attractor, groups
+from stimuli.attractor import ROUNDING, attractor, groups
 from stimuli.course import Course
-from stimuli.online import ROUNDING, run
+from stimuli.online import run
 from stimuli.spring import respond, step_of
 from stimuli.trajectory import FloatArray, Trajectory
 

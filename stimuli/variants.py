@@ -41,6 +41,7 @@ def is_superposition(course: Course) -> bool:
         and course.carried is None
         and not course.is_coupled
         and course.goal_lag_s == 0
+        and course.until_then is None
         and (course.around == "goal" or course.exaggeration == 1)
     )
 

@@ -7,17 +7,22 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, ClassVar
 
+import numpy as np
 from pydantic import Field, field_validator, model_validator
 
+from stimuli.attractor import filtered_goal
 from stimuli.course import Course
 from stimuli.errors import InputError
 from stimuli.principles.principle import Principle, Stage
 from stimuli.robots.model import Robot
-from stimuli.units import POSITION, in_base_unit
+from stimuli.units import POSITION, TIME, in_base_unit
 
 
 class Goal(Principle):
     """Replace the goal of the named joints: `{HeadPitch: 22 deg}`, positions in the joint's unit or as text.
+
+    A goal may move under way: `{HeadYaw: {0.5: 25 deg, 1.6: -20 deg}}` heads for 25 degrees from 0.5 s on and
+    for -20 from 1.6 s on; before that, for the demonstrated goal.
 
     The spring leaves for a new goal at once, with an acceleration that jumps; `lag_s` > 0 lets the goal glide
     there from the demonstrated one, g(t) = g' + (g - g') exp(-t / lag).
@@ -30,7 +35,7 @@ class Goal(Principle):
     strong: ClassVar[float] = 1.0
 
     intensity: float = Field(1.0, ge=0, le=1)  # share of the way from the demonstrated goal to the new one
-    joints: dict[str, float] = Field(default_factory=dict)
+    joints: dict[str, float | dict[float, float]] = Field(default_factory=dict)  # s: position, if it moves
     lag_s: float = Field(0.0, ge=0, le=60)
 
     @classmethod
@@ -53,7 +58,7 @@ class Goal(Principle):
     def _in_joint_units(cls, joints: Any) -> Any:
         if not isinstance(joints, Mapping):
             return joints
-        return {str(name): _position(str(name), value) for name, value in sorted(joints.items())}
+        return {str(name): _positions(str(name), value) for name, value in sorted(joints.items())}
 
     @property
     def is_neutral(self) -> bool:
@@ -61,20 +66,43 @@ class Goal(Principle):
         return self.intensity == 0 or not self.joints
 
     def modulate(self, course: Course) -> Course:
-        """Move the goal."""
-        goal = course.goal.copy()
-        for name, position in self.joints.items():
-            if name not in course.joints:
-                near = difflib.get_close_matches(name, course.joints, 1)
-                hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(course.joints)}"
-                raise InputError(f"goal.{name}: {course.robot.name} has no such joint{hint}")
-            column = course.joints.index(name)
-            goal[column] += self.intensity * (position - goal[column])
-        return replace(course, goal=goal, former_goal=course.goal, goal_lag_s=self.lag_s)
+        """Move the goal, once or at one moment after the other."""
+        demonstrated = course.goal
+        moments: dict[float, dict[int, float]] = {}
+        for name, positions in self.joints.items():
+            column = _column(name, course)
+            for moment, position in (positions if isinstance(positions, dict) else {0.0: positions}).items():
+                moments.setdefault(moment, {})[column] = position
+        for moment in sorted(moments):
+            goal, since = course.goal.copy(), moment / course.tau_s
+            for column, position in moments[moment].items():
+                goal[column] = demonstrated[column] + self.intensity * (position - demonstrated[column])
+            course = replace(
+                course,
+                goal=goal,
+                former_goal=filtered_goal(course, np.array([since]))[0],
+                goal_lag_s=self.lag_s,
+                goal_since=since,
+                until_then=course if since > 0 else None,
+            )
+        return course
 
 
-def _position(name: str, value: object) -> float:
+def _column(name: str, course: Course) -> int:
+    if name in course.joints:
+        return course.joints.index(name)
+    near = difflib.get_close_matches(name, course.joints, 1)
+    hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(course.joints)}"
+    raise InputError(f"goal.{name}: {course.robot.name} has no such joint{hint}")
+
+
+def _positions(name: str, value: object) -> float | dict[float, float]:
     try:
-        return in_base_unit(value, POSITION)
+        if not isinstance(value, Mapping):
+            return in_base_unit(value, POSITION)
+        moving = {in_base_unit(at, TIME): in_base_unit(entry, POSITION) for at, entry in value.items()}
     except ValueError as err:
         raise ValueError(f"goal.{name}: {err}; write 22 deg, 0.35 rad, 0.1 m or a bare number") from err
+    if not moving or min(moving) < 0:
+        raise ValueError(f"goal.{name}: a goal that moves needs moments from 0 s on, as {{0.5: 25 deg}}")
+    return dict(sorted(moving.items()))

@@ -10,6 +10,7 @@ import pytest
 from stimuli.dmp import Primitive
 from stimuli.online import Runner, in_sequence, run
 from stimuli.principles import PRINCIPLES, Modulation
+from stimuli.rollout import integrate
 
 DT = 1e-4
 
@@ -50,6 +51,26 @@ def test_a_goal_may_move_under_way(robot, demonstrate):
         for _ in range(600):
             runner.step(0.01, goal={"Hip": 1.0, "Elbow": -0.5})
         assert runner.positions[[0, 3]] == pytest.approx([1.0, -0.5], abs=1e-4)
+
+
+@pytest.mark.parametrize("lag", [0.0, 0.3])
+def test_goals_moving_at_given_moments_are_those_set_by_hand_at_these_moments(lag, robot, demonstrate):
+    primitive = Primitive.learn(demonstrate(2))
+    written = {"goal": {"lag_s": lag, "Hip": {0.5: 1.0, "1.4 s": "-20 deg"}, "Elbow": {1.4: -0.5}}}
+    moving = Modulation.model_validate_json(Modulation.model_validate(written).model_dump_json())
+    planned, _ = integrate(primitive.course(moving, robot), 0.01, 400)
+    runner = Runner(replace(primitive.course(Modulation(), robot), goal_lag_s=lag))
+    goals = {50: {"Hip": 1.0}, 140: {"Hip": np.radians(-20), "Elbow": -0.5}}
+    by_hand = [runner.positions, *(runner.step(0.01, goal=goals.get(k)) for k in range(400))]
+    # where a goal jumps, the step before it already leans towards it in the planned motion
+    np.testing.assert_allclose(planned, by_hand, atol=1e-11 if lag else 0.03)
+    assert planned[-1, [0, 3]] == pytest.approx([np.radians(-20), -0.5], abs=1e-2)
+
+
+@pytest.mark.parametrize("moments", [{}, {-0.1: 0.2}, {"soon": 0.2}])
+def test_a_goal_that_moves_needs_moments(moments):
+    with pytest.raises(ValueError, match=r"goal\.Hip"):
+        Modulation.model_validate({"goal": {"Hip": moments}})
 
 
 def test_a_gliding_goal_sets_out_more_gently_than_one_that_jumps(robot, demonstrate):
