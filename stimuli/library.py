@@ -19,13 +19,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from stimuli.errors import InputError
 from stimuli.manifest import Clip, Framing, Manifest, sha256_of
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec, Video
-from stimuli.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from stimuli.rendering import Renderer
@@ -80,7 +77,7 @@ def render_clip(spec: StimulusSpec, robot: Robot, folder: Path) -> Clip:
     """Make one stimulus' motion, film it, and say what came out. The camera must be resolved."""
     from stimuli.descriptors import describe
     from stimuli.motion import generate
-    from stimuli.video import write_video
+    from stimuli.video import frame_positions, write_video
 
     motion = generate(spec, robot)
     video = spec.video
@@ -107,20 +104,6 @@ def render_clip(spec: StimulusSpec, robot: Robot, folder: Path) -> Clip:
         software={name: importlib.metadata.version(name) for name in SOFTWARE},
         gl_renderer=renderer.gl_renderer,
     )
-
-
-def frame_positions(
-    trajectory: Trajectory, video: Video
-) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """Joint positions in each frame, shape (frames, joints).
-
-    There are round((lead-in + motion + hold) · fps) frames, halves up. Frame k shows the motion at time
-    k / fps − lead-in: its first pose before it starts, its last after it ends.
-    """
-    total_s = video.lead_in_s + trajectory.duration_s + video.hold_s
-    frames = max(1, int(np.floor(total_s * video.fps + 0.5)))
-    times = trajectory.times[0] + np.arange(frames) / video.fps - video.lead_in_s
-    return trajectory.at(times)
 
 
 def _rendered(

@@ -11,6 +11,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
 
+MOTION = "motion/1"
+"""Names the way from a demonstration to a motion; whoever changes what comes out changes the name."""
+
 
 class Video(BaseModel):
     """Size, timing and framing, the same for every clip of a study."""
@@ -38,6 +41,7 @@ class StimulusSpec(BaseModel):
     modulation: Modulation
     learning: Learning
     video: Video
+    motion: str = MOTION
 
     @property
     def sha256(self) -> str:

@@ -1,4 +1,4 @@
-"""H.264 files that play in every browser, frame by frame, the same bytes each time."""
+"""From a motion to the pose in each frame, and from frames to H.264 that plays in every browser."""
 
 from __future__ import annotations
 
@@ -11,8 +11,23 @@ import av
 import numpy as np
 from numpy.typing import NDArray
 
+from stimuli.spec import Video
+from stimuli.trajectory import FloatArray, Trajectory
+
 BT709, LIMITED = 1, 1  # ITU-T H.273 code points: colour matrix, transfer and primaries; video range
 OPTIONS = {"preset": "veryfast", "crf": "18", "profile": "high"}
+
+
+def frame_positions(trajectory: Trajectory, video: Video) -> FloatArray:
+    """Joint positions in each frame, shape (frames, joints).
+
+    There are round((lead-in + motion + hold) · fps) frames, halves up. Frame k shows the motion at time
+    k / fps − lead-in: its first pose before it starts, its last after it ends.
+    """
+    total_s = video.lead_in_s + trajectory.duration_s + video.hold_s
+    frames = max(1, int(np.floor(total_s * video.fps + 0.5)))
+    times = trajectory.times[0] + np.arange(frames) / video.fps - video.lead_in_s
+    return trajectory.at(times)
 
 
 def write_video(path: Path, frames: Iterable[NDArray[np.uint8]], *, fps: int) -> int:

@@ -12,8 +12,6 @@ from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
-from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
 from stimuli.robots.model import Vector
@@ -77,6 +75,9 @@ class Loft:
 
     @cached_property
     def _table(self) -> tuple[FloatArray, FloatArray]:
+        from scipy.interpolate import PchipInterpolator  # late: slow to import, and only bodies need it
+        from scipy.ndimage import gaussian_filter1d
+
         rows = np.array(self.sections, float)
         z = np.linspace(rows[0, 0], rows[-1, 0], 501)
         values = PchipInterpolator(rows[:, 0], rows[:, 1:], axis=0)(z)  # (501, 5)
@@ -143,6 +144,8 @@ class Loft:
 
     def seam(self, path: Sequence[tuple[float, float]], width: float, lift: float = 0.0006) -> Mesh:
         """A narrow band along a path of (angle, z) on the surface."""
+        from scipy.interpolate import PchipInterpolator
+
         rows = np.array(path, float)
         along = PchipInterpolator(np.linspace(0, 1, len(rows)), rows, axis=0)(
             np.linspace(0, 1, 8 * len(rows))

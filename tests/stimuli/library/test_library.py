@@ -18,13 +18,12 @@ import pytest
 from stimuli.contact_sheet import contact_sheet
 from stimuli.dmp import Learning
 from stimuli.errors import InputError
-from stimuli.library import Progress, frame_positions, render_clip, render_missing
+from stimuli.library import Progress, render_clip, render_missing
 from stimuli.manifest import Manifest
 from stimuli.principles import Modulation
 from stimuli.robots import load_robot
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec, Video
-from stimuli.trajectory import Trajectory
 
 GESTURE = """\
 gesture: nod
@@ -184,22 +183,6 @@ render_clip(one, load_robot("pepper", Path()), Path({str(clips)!r}))
     short = [spec(gesture, pepper, "short")]
     render_missing(short, {"pepper": pepper}, clips, workers=1)
     assert sorted(path.suffix for path in clips.iterdir()) == [".json", ".mp4"]
-
-
-@pytest.mark.parametrize(
-    ("motion_s", "lead_in_s", "hold_s", "fps", "frames"),
-    [(1.0, 0.5, 0.5, 30, 60), (0.99, 0, 0.02, 10, 10), (0.05, 0, 0, 30, 2)],
-)
-def test_a_clip_has_as_many_frames_as_its_time_says(
-    motion_s: float, lead_in_s: float, hold_s: float, fps: int, frames: int
-) -> None:
-    times = np.linspace(0, motion_s, 50)
-    ramp = Trajectory(times, times[:, None] / motion_s, ("HeadYaw",))
-    video = Video(fps=fps, lead_in_s=lead_in_s, hold_s=hold_s)
-    shown = frame_positions(ramp, video)[:, 0]
-    assert len(shown) == frames
-    expected = np.clip((np.arange(frames) / fps - lead_in_s) / motion_s, 0, 1)
-    np.testing.assert_allclose(shown, expected, atol=1e-9)
 
 
 def test_a_contact_sheet_shows_every_clip(

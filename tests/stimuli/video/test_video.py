@@ -9,7 +9,9 @@ import av
 import numpy as np
 import pytest
 
-from stimuli.video import read_frames, write_video
+from stimuli.spec import Video
+from stimuli.trajectory import Trajectory
+from stimuli.video import frame_positions, read_frames, write_video
 
 
 def moving_square(count: int) -> list[np.ndarray]:
@@ -59,3 +61,19 @@ def test_a_run_that_breaks_off_leaves_nothing_behind(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         write_video(tmp_path / "clip.mp4", breaking(), fps=10)  # type: ignore[arg-type]
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("motion_s", "lead_in_s", "hold_s", "fps", "frames"),
+    [(1.0, 0.5, 0.5, 30, 60), (0.99, 0, 0.02, 10, 10), (0.05, 0, 0, 30, 2)],
+)
+def test_a_clip_has_as_many_frames_as_its_time_says(
+    motion_s: float, lead_in_s: float, hold_s: float, fps: int, frames: int
+) -> None:
+    times = np.linspace(0, motion_s, 50)
+    ramp = Trajectory(times, times[:, None] / motion_s, ("HeadYaw",))
+    video = Video(fps=fps, lead_in_s=lead_in_s, hold_s=hold_s)
+    shown = frame_positions(ramp, video)[:, 0]
+    assert len(shown) == frames
+    expected = np.clip((np.arange(frames) / fps - lead_in_s) / motion_s, 0, 1)
+    np.testing.assert_allclose(shown, expected, atol=1e-9)
