@@ -11,16 +11,28 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.rows import MISSING, ResponsesError, Rows, read_rows
+from analysis.rows import (
+    MISSING,
+    OPTIONAL,
+    REQUIRED,
+    ResponsesError,
+    Rows,
+    named_columns,
+    read_header,
+    read_rows,
+)
+from analysis.wide import answer_columns, read_wide, unknown_names
+from study.participants import Kind
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
 
+UNKNOWN = -2  # an answer that is no option
 FloatArray = NDArray[np.float64]
 Codes = NDArray[np.int8]
 
@@ -73,6 +85,7 @@ class Responses:
         default_factory=dict
     )  # part → (participants, stimuli), when seen
     median_rt_s: FloatArray | None = None  # (participants,) time per answer
+    kind: Kind = "participant"  # simulated and test answers are no data, and every output says so
 
     def answers(self, part: str, item: str | None = None) -> Answers:
         """The question of a part with that item; its first question if none is named."""
@@ -92,15 +105,16 @@ class Responses:
         )
 
 
-def read_responses(path: Path, protocol: Protocol) -> Responses:
-    """Read `participant, stimulus, item, response` (and `part`, `trial`, `rt_ms` where present).
+def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | None = None) -> Responses:
+    """Read `participant, stimulus, item, response` (and `part`, `trial`, `rt_ms`, `session` where present).
 
-    Columns may stand in any order and others are ignored; an empty response is a missing answer. Rows on the
-    practice, of pages outside the parts or on questions without options are left out. Anything else that
-    the protocol does not know, and a second answer to the same item, is refused with its line. Raises
-    ResponsesError.
+    Columns may stand in any order and others are ignored; an empty response is a missing answer. `columns`
+    says where a file calls one otherwise, `{"participant": "PID"}`. A table with one column per answer is
+    read too. Rows on the practice, of pages outside the parts or on questions without options are left out.
+    Anything else that the protocol does not know, and a second answer to the same item, is refused with its
+    line. Raises ResponsesError.
     """
-    rows = read_rows(path)
+    rows = _read(path, protocol, columns or {})
     empty = [
         Answers(
             part=part.id,
@@ -126,7 +140,54 @@ def read_responses(path: Path, protocol: Protocol) -> Responses:
         questions=questions,
         trials=_trials(rows, protocol, participants),
         median_rt_s=_median_rt_s(rows, which >= 0, participants),
+        kind=_kind(rows),
     )
+
+
+def _read(path: Path, protocol: Protocol, said: Mapping[str, str]) -> Rows:
+    """The rows of a file, which has one answer or one participant per record."""
+    asked = {
+        stimulus: [item for question in part.questions if question.values for item in question.items]
+        for part in protocol.parts.values()
+        for stimulus in part.stimuli
+    }
+    if unknown := unknown_names(said, asked):
+        raise ResponsesError(
+            f"--column {unknown[0]}=…: {unknown[0]!r} is neither one of {', '.join((*REQUIRED, *OPTIONAL))} "
+            "nor STIMULUS.ITEM"
+        )
+    header = read_header(path)
+    named = named_columns(path, header, said)
+    if {"stimulus", "item", "response"}.isdisjoint(named) and (
+        answers := answer_columns(header, said, asked)
+    ):
+        return read_wide(path, named, answers)
+    return read_rows(path, named, header)
+
+
+def _kind(rows: Rows) -> Kind:
+    """Whose answers these are, by the column `session`; without it, participants'."""
+    if "session" not in rows.frame:
+        return "participant"
+    kinds = get_args(Kind)
+    code = rows.codes("session", {kind: place for place, kind in enumerate(kinds)} | {"": 0})
+    rows.refuse_if(
+        code < 0,
+        lambda row: (
+            f"session {rows.value('session', row)!r} is none of {', '.join(kinds)}; "
+            "where the column means something else, leave it out with --column session="
+        ),
+    )
+    first = int(code[0]) if code.size else 0
+    rows.refuse_if(
+        code != first,
+        lambda row: (
+            f"{rows.value('session', row)} answers among {kinds[first]} answers; analyse them apart, "
+            "for only participants' answers are data"
+        ),
+    )
+    kind: Kind = kinds[first]
+    return kind
 
 
 def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[Answers]) -> NDArray[np.int64]:
@@ -194,10 +255,10 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.int64]) -> Answers:
             ("item", question.items),
         )
     ]
-    options = {option: i for i, option in enumerate(question.options)} | {"": MISSING}
-    answers = rows.codes("response", options, unknown=-2)[mine]
+    options = {answer: _place(answer, question.options) for answer in rows.names("response")}
+    answers = rows.codes("response", options, unknown=UNKNOWN)[mine]
     rows.refuse_if(
-        _among(mine, answers == -2, len(rows.frame)),
+        _among(mine, answers == UNKNOWN, len(rows.frame)),
         lambda row: (
             f"response {rows.value('response', row)!r} is not an answer to "
             f"{rows.value('item', row)}; known: {', '.join(question.options)}, or empty for none"
@@ -208,6 +269,19 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.int64]) -> Answers:
     codes = np.full(shape, MISSING, dtype=np.int8)
     codes.reshape(-1)[cells] = answers
     return replace(question, codes=codes)
+
+
+def _place(answer: str, options: Sequence[str]) -> int:
+    """Which option an answer is; a number may be written 4, 4.0 or 4,0."""
+    if not answer:
+        return MISSING
+    if answer in options:
+        return options.index(answer)
+    try:
+        number = float(answer.replace(",", "."))
+        return [float(option) for option in options].index(number)
+    except ValueError:  # no number, or none of the options
+        return UNKNOWN
 
 
 def _refuse_duplicates(rows: Rows, mine: NDArray[np.int64], cells: NDArray[np.int64], size: int) -> None:
@@ -257,6 +331,11 @@ def _median_rt_s(rows: Rows, mine: NDArray[np.bool_], participants: tuple[str, .
     import pandas as pd
 
     person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
-    times = pd.to_numeric(rows.frame["rt_ms"], errors="coerce").to_numpy(dtype=float)
+    written = rows.frame["rt_ms"].str.replace(",", ".")
+    times = pd.to_numeric(written, errors="coerce").to_numpy(dtype=float)
+    rows.refuse_if(
+        mine & np.isnan(times) & (written != "").to_numpy(),
+        lambda row: f"rt_ms {rows.value('rt_ms', row)!r} is not a number of milliseconds",
+    )
     medians = pd.Series(times[mine]).groupby(person[mine]).median() / 1000
     return medians.reindex(range(len(participants))).to_numpy(dtype=float)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 REQUIRED = ("participant", "stimulus", "item", "response")
-OPTIONAL = ("part", "trial", "rt_ms")
+OPTIONAL = ("part", "trial", "rt_ms", "session")
 MISSING = -1
 
 
@@ -27,9 +27,11 @@ class ResponsesError(InputError):
 class Rows:
     """The rows of a file as integer codes, with their line numbers for whoever has to mend them."""
 
-    def __init__(self, path: Path, frame: pd.DataFrame) -> None:
+    def __init__(self, path: Path, frame: pd.DataFrame, *, per_record: int = 1, skipped: int = 0) -> None:
         self.path = path
         self.frame = frame
+        self.per_record = per_record  # rows made from each record of the file
+        self.skipped = skipped  # records below the header that hold no answers
 
     def names(self, column: str) -> list[str]:
         """Every value that occurs in a column."""
@@ -51,7 +53,8 @@ class Rows:
         with self.path.open(encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(file, delimiter=_delimiter(self.path))
             filled = (reader.line_num for record in reader if record)
-            return next(line for number, line in enumerate(filled) if number == row + 1)
+            record = 1 + self.skipped + row // self.per_record
+            return next(line for number, line in enumerate(filled) if number == record)
 
     def refuse_if(self, bad: NDArray[np.bool_], message: str | Callable[[int], str]) -> None:
         """Refuse the file at the first bad row."""
@@ -62,18 +65,32 @@ class Rows:
             raise ResponsesError(f"{self.path}:{self.line(row)}: {said}{more}")
 
 
-def read_rows(path: Path) -> Rows:
-    """Read the columns in question as the texts written in the file."""
+def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str]) -> Rows:
+    """Read the columns in question as the texts written in the file; `columns` maps our names to the file's."""
+    missing = [name for name in REQUIRED if name not in columns]
+    if missing:
+        raise ResponsesError(
+            f"{path}:1: needs the columns {', '.join(REQUIRED)}; {', '.join(missing)} not among "
+            f"{', '.join(header) or 'none'}. Name them as in --column {missing[0]}=THEIRS, or give one column "
+            "per answer, named STIMULUS_ITEM"
+        )
+    theirs = {theirs: ours for ours, theirs in columns.items()}
+    frame = read_columns(
+        path, {name: "str" if ours == "rt_ms" else "category" for name, ours in theirs.items()}
+    )
+    return Rows(path, frame.rename(columns=theirs))
+
+
+def read_columns(path: Path, types: Mapping[str, str]) -> pd.DataFrame:
+    """Columns of a file as text, none of it taken for a number or a missing value."""
     import pandas as pd
 
-    columns = _header(path)
-    wanted = [column for column in (*REQUIRED, *OPTIONAL) if column in columns]
     try:
-        frame = pd.read_csv(
+        return pd.read_csv(
             path,
             sep=_delimiter(path),
-            usecols=wanted,
-            dtype={column: "category" if column != "rt_ms" else "str" for column in wanted},
+            usecols=list(types),
+            dtype=dict(types),
             keep_default_na=False,
             encoding="utf-8-sig",
         )
@@ -84,10 +101,9 @@ def read_rows(path: Path) -> Rows:
         raise ResponsesError(
             f"{path}: {str(error).removeprefix('Error tokenizing data. C error: ')}"
         ) from error
-    return Rows(path, frame)
 
 
-def _header(path: Path) -> list[str]:
+def read_header(path: Path) -> list[str]:
     """The names of the columns, or what is wrong with them."""
     try:
         first = _first_bytes(path)
@@ -97,14 +113,23 @@ def _header(path: Path) -> list[str]:
         raise ResponsesError(f"{path}: is UTF-16 (Excel's 'Unicode text'); save the file as CSV UTF-8")
     with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
         columns = next(csv.reader(file, delimiter=_delimiter(path)), [])
-    if missing := [column for column in REQUIRED if column not in columns]:
-        raise ResponsesError(
-            f"{path}:1: needs the columns {', '.join(REQUIRED)}; {', '.join(missing)} not among "
-            f"{', '.join(columns) or 'none'}"
-        )
     if twice := [column for column in columns if columns.count(column) > 1]:
         raise ResponsesError(f"{path}:1: column {twice[0]!r} stands twice")
     return columns
+
+
+def named_columns(path: Path, header: Sequence[str], said: Mapping[str, str]) -> dict[str, str]:
+    """Which column of the file is meant by each of our names: as said, else the one of that name.
+
+    A name said to be the empty text is left out.
+    """
+    for ours, theirs in said.items():
+        if theirs and theirs not in header:
+            raise ResponsesError(
+                f"{path}:1: column {theirs!r}, said to be {ours}, is not among {', '.join(header)}"
+            )
+    found = {name: name for name in (*REQUIRED, *OPTIONAL) if name in header and name not in said.values()}
+    return {ours: theirs for ours, theirs in (found | dict(said)).items() if theirs}
 
 
 def _first_bytes(path: Path) -> bytes:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp, log, pi, sqrt
 
+import numpy as np
+
+from analysis.statistics.noncentral_t import log_density
 from analysis.statistics.t_test import Alternative, TTest
 
 
@@ -27,29 +30,21 @@ def jzs_bayes_factor(result: TTest, prior_scale: float = sqrt(2) / 2) -> BayesFa
     """
     if result.t is None or result.df is None:
         return BayesFactor(None, None, result.alternative, prior_scale, result.reason)
-    from scipy.integrate import quad
-    from scipy.stats import nct
-    from scipy.stats import t as student
-
     size = result.n[0] if len(result.n) == 1 else result.n[0] * result.n[1] / sum(result.n)
     root, t, df = sqrt(size), result.t, result.df
-    null = float(student.logpdf(t, df))
-
-    def weighted(d: float) -> float:
-        prior = 1 / (pi * prior_scale * (1 + (d / prior_scale) ** 2))
-        return prior * exp(float(nct.logpdf(t, df, d * root)) - shift)
-
-    peak = t / root
-    shift = float(nct.logpdf(t, df, t))
-    limits = {"greater": (0.0, None), "less": (None, 0.0), "two-sided": (None, None)}[result.alternative]
-    reach = 12 / root
-    low = peak - reach if limits[0] is None else max(limits[0], peak - reach)
-    high = peak + reach if limits[1] is None else min(limits[1], peak + reach)
+    low, high = t / root - 12 / root, t / root + 12 / root  # where the likelihood of d is
+    low = max(0.0, low) if result.alternative == "greater" else low
+    high = min(0.0, high) if result.alternative == "less" else high
     if low >= high:
         return BayesFactor(None, None, result.alternative, prior_scale, "effect far on the other side")
-    area = quad(weighted, low, high, epsabs=0, epsrel=1e-10, limit=200)[0]
-    one_sided = 1 if result.alternative == "two-sided" else 2
-    logarithm = log(area * one_sided) + shift - null
+    nodes, weights = np.polynomial.legendre.leggauss(400)
+    d = (low + high) / 2 + (high - low) / 2 * nodes
+    sides = 1 if result.alternative == "two-sided" else 2
+    prior = sides / (pi * prior_scale * (1 + (d / prior_scale) ** 2))
+    likelihood = log_density(t, df, d * root) - log_density(t, df, np.zeros(1))
+    peak = float(likelihood.max())
+    area = float(weights @ (prior * np.exp(likelihood - peak))) * (high - low) / 2
+    logarithm = log(area) + peak
     return BayesFactor(
         logarithm, exp(logarithm) if logarithm < 700 else None, result.alternative, prior_scale
     )

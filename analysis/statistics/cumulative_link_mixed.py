@@ -49,7 +49,7 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     fit = minimize(model.negative, start, method="BFGS", options={"gtol": 1e-6})
     parameters = fit.x
     effect = float(parameters[levels - 1])
-    variance = np.linalg.inv(_hessian(model.negative, parameters))[levels - 1, levels - 1]
+    variance = np.linalg.inv(hessian(model.negative, parameters))[levels - 1, levels - 1]
     if not np.isfinite(variance) or variance <= 0 or abs(effect) > 20:
         reason = "undefined: the conditions separate the ratings"
         return CumulativeLinkMixed(y.size, names.size, None, None, None, None, (), None, None, reason)
@@ -116,7 +116,7 @@ def _logistic(x: FloatArray) -> FloatArray:
     return y
 
 
-def _hessian(function: object, at: FloatArray, step: float = 1e-4) -> FloatArray:
+def hessian(function: object, at: FloatArray, step: float = 1e-4) -> FloatArray:
     """Second derivatives by central differences."""
     assert callable(function)
     size = at.size

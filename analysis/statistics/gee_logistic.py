@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from math import erfc, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+Cluster = tuple[FloatArray, FloatArray]  # design (m, 2) and answers (m,) of one participant
+FEW = 40  # participants below which robust errors are too small
 
 
 @dataclass(frozen=True)
@@ -36,13 +42,81 @@ def gee_logistic(
             return GeeLogistic(n, count, None, None, None, "undefined: complete separation in a condition")
     if n == 0 or np.ptp(covariate) == 0:
         return GeeLogistic(n, count, None, None, None, "undefined: one condition only")
-    import statsmodels.api as sm
-
+    design = np.column_stack([np.ones(n), covariate])
     order = np.argsort(group, kind="stable")
-    design = np.column_stack([np.ones(n), covariate])[order]
-    model = sm.GEE(
-        y[order], design, group[order], family=sm.families.Binomial(), cov_struct=sm.cov_struct.Exchangeable()
+    edges = np.flatnonzero(np.diff(group[order])) + 1
+    clusters = list(zip(np.split(design[order], edges), np.split(y[order], edges), strict=True))
+    beta, correlation = _estimate(clusters, design, y)
+    reduce = count < FEW if bias_reduced is None else bias_reduced
+    effect, se = float(beta[1]), _robust_se(clusters, beta, correlation, bias_reduced=reduce)
+    return GeeLogistic(n, count, effect, se, erfc(abs(effect / se) / sqrt(2)))
+
+
+def _estimate(clusters: list[Cluster], design: FloatArray, y: FloatArray) -> tuple[FloatArray, float]:
+    """Coefficients and the correlation within participants, in turn until neither changes."""
+    beta, correlation = np.zeros(2), 0.0
+    for _ in range(200):
+        slope = sum(
+            (weighted.T @ error for _, weighted, error in _terms(clusters, beta, correlation)), np.zeros(2)
+        )
+        step = np.linalg.solve(_bread(clusters, beta, correlation), slope)
+        before = correlation
+        beta = beta + step
+        correlation = _correlation(clusters, design, y, beta)
+        if np.abs(step).max() < 1e-12 and abs(correlation - before) < 1e-12:
+            break
+    return beta, correlation
+
+
+def _correlation(clusters: list[Cluster], design: FloatArray, y: FloatArray, beta: FloatArray) -> float:
+    """Mean product of two standardised residuals of a participant, over their mean square."""
+    scale = float((_standardised(design, y, beta) ** 2).mean())
+    products, pairs = 0.0, 0
+    for part, answers in clusters:
+        residuals = _standardised(part, answers, beta)
+        products += (residuals.sum() ** 2 - (residuals**2).sum()) / 2
+        pairs += residuals.size * (residuals.size - 1) // 2
+    return products / pairs / scale if pairs else 0.0
+
+
+def _standardised(design: FloatArray, y: FloatArray, beta: FloatArray) -> FloatArray:
+    mean = _mean(design, beta)
+    residuals: FloatArray = (y - mean) / np.sqrt(mean * (1 - mean))
+    return residuals
+
+
+def _mean(design: FloatArray, beta: FloatArray) -> FloatArray:
+    mean: FloatArray = 1 / (1 + np.exp(-design @ beta))
+    return mean
+
+
+def _terms(
+    clusters: list[Cluster], beta: FloatArray, correlation: float
+) -> Iterator[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Per participant the derivative D (m, 2) of the means, V⁻¹ D (m, 2), and the errors (m,)."""
+    for design, y in clusters:
+        mean = _mean(design, beta)
+        variance = mean * (1 - mean)
+        derivative = variance[:, None] * design
+        standardised = derivative / np.sqrt(variance)[:, None]
+        shared = correlation / (1 + (y.size - 1) * correlation) * standardised.sum(axis=0)
+        weighted = (standardised - shared) / (1 - correlation) / np.sqrt(variance)[:, None]
+        yield derivative, weighted, y - mean
+
+
+def _bread(clusters: list[Cluster], beta: FloatArray, correlation: float) -> FloatArray:
+    return sum(
+        (derivative.T @ weighted for derivative, weighted, _ in _terms(clusters, beta, correlation)),
+        np.zeros((2, 2)),
     )
-    reduce = count < 40 if bias_reduced is None else bias_reduced
-    fit = model.fit(cov_type="bias_reduced" if reduce else "robust")
-    return GeeLogistic(n, count, float(fit.params[1]), float(fit.bse[1]), float(fit.pvalues[1]))
+
+
+def _robust_se(clusters: list[Cluster], beta: FloatArray, correlation: float, *, bias_reduced: bool) -> float:
+    """Sandwich standard error of the effect; each participant's own pull on the fit undone if bias-reduced."""
+    bread = np.linalg.inv(_bread(clusters, beta, correlation))
+    filling = np.zeros((2, 2))
+    for derivative, weighted, error in _terms(clusters, beta, correlation):
+        leverage = derivative @ bread @ weighted.T
+        own = np.linalg.solve(np.eye(error.size) - leverage, error) if bias_reduced else error
+        filling += np.outer(weighted.T @ own, weighted.T @ own)
+    return float(np.sqrt((bread @ filling @ bread)[1, 1]))
