@@ -33,6 +33,10 @@ class Question(Written, ABC):
         """The answers an item can have, with their labels, in the order written; None where it is open."""
         return None
 
+    def asked_at(self, trial: int) -> bool:  # noqa: ARG002
+        """Whether it stands on the page of this trial of its part, counted from 1; 0 is practice."""
+        return True
+
     def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
         """Answer as a participant might.
 

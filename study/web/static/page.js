@@ -4,6 +4,7 @@ import { Answers } from "./answers.js";
 import { fetchAhead, loadClip } from "./clips.js";
 import { Outbox } from "./outbox.js";
 import { Player } from "./player.js";
+import { enliven } from "./questions.js";
 
 const page = JSON.parse(document.getElementById("page").textContent);
 const form = document.getElementById("answers");
@@ -13,6 +14,7 @@ const gate = document.getElementById("gate");
 const answers = new Answers(form);
 const opened = performance.now();
 let players = [];
+enliven(form);
 
 const outbox = new Outbox(page.participant, page.answer_url, (state) => {
   if (state === "waiting") say(page.texts.offline);

@@ -24,6 +24,9 @@ EXAMPLES: dict[str, dict[str, object]] = {
         "options": {"lower": {"en": "lower"}, "higher": {"en": "higher"}},
         "sides": "balanced",
     },
+    "attention": {"text": "Choose green.", "options": ["red", "green"], "expected": "green"},
+    "rank": {"text": "Which fits best?", "items": ["joy", "fear", "anger"], "item_order": "shuffled"},
+    "slider": {"text": "How?", "items": ["joy", "fear"], "ends": ["not at all", "fully"]},
     "differential": {"set": "godspeed", "points": 7},
     "number": {"item": "age", "text": "Age?", "least": 18, "most": 120, "whole": True},
     "select": {"item": "gender", "text": "Gender?", "options": ["female", "male", "other"]},
@@ -97,7 +100,8 @@ def test_option_orders_all_hold_the_same_options(kind):
     ("kind", "answer"),
     [("rate", "0"), ("rate", "6"), ("rate", "3.0"), ("rate", " 3"), ("choose", "Lower"), ("number", "17"),
      ("number", "121"), ("number", "18.5"), ("number", "1e2"), ("number", "٣٣"), ("select", "nobody"),
-     ("text", "x" * 501)],
+     ("text", "x" * 501), ("slider", "101"), ("slider", "-1"), ("slider", "50.5"), ("rank", "0"),
+     ("rank", "4"), ("attention", "blue")],
 )  # fmt: skip
 def test_impossible_answers_are_refused(kind, answer):
     question = made(kind)
@@ -131,6 +135,45 @@ def test_godspeed_has_its_24_items_in_five_series_and_scores_their_means():
     assert question.scores(answers)["safety"] == 1.5
     assert question.scores(answers)["animacy"] == 4
     assert question.scores({}) == {}
+
+
+def test_rosas_has_its_three_scales_of_six_on_nine_points():
+    question = ASKED.validate_python({"rate": {"set": "rosas"}})
+    names = list(question.series.values())
+    assert {name: names.count(name) for name in names} == {"warmth": 6, "competence": 6, "discomfort": 6}
+    assert list(question.values) == [str(point) for point in range(1, 10)]
+    answers = dict.fromkeys(question.items, "9") | {"scary": "3"}
+    assert question.scores(answers) == {"warmth": 9, "competence": 9, "discomfort": 8}
+
+
+def test_a_set_is_for_the_kind_that_asks_it():
+    with pytest.raises(ValidationError, match="is no set of questions here"):
+        ASKED.validate_python({"rate": {"set": "godspeed"}})
+
+
+def test_ranks_are_given_once_and_to_all():
+    question = made("rank", optional=True)
+    question.check({"joy": "2", "fear": "1", "anger": "3"})
+    with pytest.raises(AnswerError, match="rank 1 is given 2 times"):
+        question.check({"joy": "1", "fear": "1", "anger": "3"})
+    with pytest.raises(AnswerError, match="2 of 3 are ranked"):
+        question.check({"joy": "1", "fear": "2"})
+
+
+def test_the_ranked_target_is_often_first():
+    rng = random.Random(1)
+    first = [made("rank").simulate(rng, "joy")["joy"] == "1" for _ in range(300)]
+    assert sum(first) > 200
+
+
+def test_attention_is_passed_by_the_expected_answer_alone():
+    question = made("attention")
+    assert question.passed("green") and not question.passed("red") and not question.passed("")
+    assert question.codebook()[0]["expected"] == "green"
+    rng = random.Random(1)
+    assert all(question.simulate(rng)["attention"] == "green" for _ in range(50))
+    with pytest.raises(ValidationError, match="is no option; did you mean green"):
+        made("attention", expected="gren")
 
 
 def test_a_series_can_be_asked_alone():

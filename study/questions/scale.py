@@ -1,0 +1,103 @@
+"""What rating and differentials share: items on one scale of points, and series scored by their means.
+
+`set: godspeed` or `set: rosas` brings the items of a published questionnaire, `set: godspeed animacy` one of
+its series (study/defaults/sets/).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any, ClassVar, Literal
+
+import yaml
+from pydantic import Field, model_validator
+
+from study.questions.question import Question
+from study.text import Text
+from study.written import nearest, wrong_at
+
+_SETS = Path(__file__).parent.parent / "defaults" / "sets"
+
+
+class Scale(Question):
+    """Items that are all answered by one of the same points, 1 being the lowest."""
+
+    items_field: ClassVar[str]  # where a protocol writes the items, and a set brings them
+
+    set: str | None = None
+    points: int = Field(5, ge=2, le=11)
+    series: dict[str, str] = Field(default_factory=dict)  # item → the scale it is scored in
+    item_order: Literal["fixed", "shuffled"] = "fixed"  # shuffled: once per participant, then the same
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_a_set(cls, value: Any) -> Any:
+        name = value.get("set") if isinstance(value, Mapping) else None
+        if name is None:
+            return value
+        sets = {name: body for kind, name, body in question_sets() if kind == cls.kind}
+        if name not in sets:
+            raise wrong_at(("set",), f"is no set of questions here; {nearest(name, sets)}", name)
+        body = sets[name]
+        return {key: body[key] for key in body if key != "items"} | {cls.items_field: body["items"]} | value
+
+    @property
+    def scale(self) -> tuple[int, int]:
+        """Lowest and highest point."""
+        return 1, self.points
+
+    @cached_property
+    def values(self) -> Mapping[str, Text]:
+        """The points, from "1"."""
+        return {str(point): Text(str(point)) for point in range(1, self.points + 1)}
+
+    @property
+    def shuffles_items(self) -> bool:
+        """Whether the rows are shuffled for each participant."""
+        return self.item_order == "shuffled"
+
+    def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
+        """Rate the target high and the rest low, as a rounded normal judgement."""
+        middle, width = (1 + self.points) / 2, (self.points - 1) / 4
+        answers = {}
+        for item in self.items:
+            lean = 0.0 if target is None else effect * (0.9 if item == target else -0.9)
+            judgement = rng.gauss(middle + lean * width, width)
+            answers[item] = str(min(max(round(judgement), 1), self.points))
+        return answers
+
+    def codebook(self, language: str = "en") -> list[dict[str, Any]]:
+        """As for every question, and the series each item is scored in."""
+        return [entry | {"series": self.series.get(entry["item"])} for entry in super().codebook(language)]
+
+    def scores(self, answers: Mapping[str, str]) -> dict[str, float]:
+        """The mean of each series over its answered items; series without an answer are left out."""
+        given: dict[str, list[int]] = {}
+        for item, series in self.series.items():
+            if answers.get(item):
+                given.setdefault(series, []).append(int(answers[item]))
+        return {series: sum(points) / len(points) for series, points in given.items()}
+
+
+@cache
+def question_sets() -> tuple[tuple[str, str, dict[str, Any]], ...]:
+    """The ready sets as (kind, name, body): each questionnaire whole, and each of its series alone."""
+    return tuple(found for file in sorted(_SETS.glob("*.yaml")) for found in _sets_in(file))
+
+
+def _sets_in(file: Path) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    body: dict[str, Any] = yaml.safe_load(file.read_text(encoding="utf-8"))
+    kind, series = body.pop("kind"), body.pop("series")
+    yield kind, file.stem, _of_series(body, series)
+    for name, items in series.items():
+        yield kind, f"{file.stem} {name}", _of_series(body, {name: items})
+
+
+def _of_series(body: dict[str, Any], series: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    return body | {
+        "items": {item: text for items in series.values() for item, text in items.items()},
+        "series": {item: name for name, items in series.items() for item in items},
+    }
