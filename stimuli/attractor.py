@@ -11,6 +11,8 @@ from functools import lru_cache
 import numpy as np
 
 from stimuli.course import Course
+from stimuli.gates import Gates
+from stimuli.robots.model import Relation
 from stimuli.trajectory import FloatArray, IndexArray
 
 ROUNDING = 1e-9  # share of the duration by which rounding may miss a moment at which something changes
@@ -19,12 +21,13 @@ _RECOVERY = 0.05  # of the duration, in which a bent clock finds back to an even
 
 @dataclass(frozen=True)
 class Group:
-    """Joints that can be carried out at once."""
+    """Joints that can be carried out at once, or gates through which others' motion then passes."""
 
     depth: int  # of their sources' sources: 0 where no other joint acts on them
     gain: float  # in Anticipation's window
     mirror: float
     columns: IndexArray
+    gates: Gates | None = None
 
     @property
     def anticipates(self) -> bool:
@@ -32,18 +35,37 @@ class Group:
         return (self.gain, self.mirror) != (1.0, 1.0)
 
 
-def groups(course: Course) -> list[Group]:
-    """All joints in groups that move alike, sources before their targets."""
-    d = len(course.joints)
-    depth = np.zeros(d, dtype=np.int64)
-    if course.is_coupled:
-        acts = (course.displaced != 0) | (course.dragging != 0)
-        for _ in course.joints:
-            depth = np.max(np.where(acts, depth + 1, 0), axis=1, initial=0)
+def groups(course: Course, *, gated: bool) -> list[Group]:
+    """All joints in groups that move alike, and, where `gated`, the gates; sources before their targets."""
+    d, gates = len(course.joints), course.gated if gated else ()
+    depths = _depths(course, gates)
     gain = np.ones(d) if course.gain is None else course.gain
     mirror = np.ones(d) if course.mirror is None else course.mirror
-    kinds = list(zip(depth.tolist(), gain.tolist(), mirror.tolist(), strict=True))
-    return [Group(*kind, np.flatnonzero([kind == other for other in kinds])) for kind in sorted(set(kinds))]
+    kinds = list(zip(depths[:d].tolist(), gain.tolist(), mirror.tolist(), strict=True))
+    made = [Group(*kind, np.flatnonzero([kind == other for other in kinds])) for kind in set(kinds)]
+    for depth in set(depths[d:].tolist()):
+        columns = np.flatnonzero(depths[d:] == depth)
+        through = Gates.of([gates[column] for column in columns], course.joints)
+        made.append(Group(depth, 1.0, 1.0, d + columns, through))
+    return sorted(made, key=lambda group: (group.depth, group.gain, group.mirror, group.gates is not None))
+
+
+def _depths(course: Course, gates: tuple[Relation, ...]) -> IndexArray:
+    """How long the longest chain of sources is that leads to each joint, then to each gate."""
+    d = len(course.joints)
+    acts = np.zeros((d + len(gates), d + len(gates)), dtype=bool)
+    if course.is_coupled:
+        acts[:d] = (course.displaced != 0) | (course.dragging != 0)
+    for row, relation in enumerate(gates, d):
+        opened_by = (relation.source, *(within.joint for within in relation.while_))
+        acts[row, [course.joints.index(joint) for joint in opened_by]] = True
+    depths = np.zeros(len(acts), dtype=np.int64)
+    while acts.any():
+        deeper = np.max(np.where(acts, depths + 1, 0), axis=1)
+        if np.array_equal(deeper, depths):
+            break
+        depths = deeper
+    return depths
 
 
 def attractor(course: Course, shares: FloatArray) -> FloatArray:

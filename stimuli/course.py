@@ -63,11 +63,10 @@ class Course:
     gain: FloatArray | None = None  # (d,) … accelerations are multiplied by this, …
     mirror: FloatArray | None = None  # (d,) … and so is the way from the start to the attractor
 
-    dragged: FloatArray | None = None  # (d, d) target's acceleration loses this times the source's
-    induced: FloatArray | None = None  # (d, d) target's rate of position gains this times the source's
-    carried: FloatArray | None = (
-        None  # (d, d) s; shown position of target gains this times the source's velocity
-    )
+    # Targets in rows; in columns their sources: all joints, then what passes each gate (`stimuli.gates`).
+    dragged: FloatArray | None = None  # (d, c) target's acceleration loses this times the source's
+    induced: FloatArray | None = None  # (d, c) target's rate of position gains this times the source's
+    carried: FloatArray | None = None  # (d, c) s; target's shown position gains this times source's velocity
 
     former_goal: FloatArray | None = None  # (d,) goal before a goal that glides …
     goal_lag_s: float = 0.0  # … with this time constant; 0: at once …
@@ -82,18 +81,16 @@ class Course:
     @property
     def dragging(self) -> FloatArray:
         """`dragged`, zero where there is none."""
-        d = len(self.joints)
-        return np.zeros((d, d)) if self.dragged is None else self.dragged
+        return self.coupling(0.0) if self.dragged is None else self.dragged
 
     @property
     def carrying(self) -> FloatArray:
         """`carried`, zero where there is none."""
-        d = len(self.joints)
-        return np.zeros((d, d)) if self.carried is None else self.carried
+        return self.coupling(0.0) if self.carried is None else self.carried
 
     @property
     def displaced(self) -> FloatArray:
-        """How much of its sources' positions a target's spring is displaced by, (d, d).
+        """How much of its sources' positions a target's spring is displaced by, (d, c).
 
         A dragged target obeys y'' = F(u, y, y') - c y_S'': then z = y + c y_S is a plain spring that chases
         u + c (y_S + 2 y_S' / rate). An induced one has y' = v + k y_S': then z = y - k y_S chases u - k y_S.
@@ -106,10 +103,16 @@ class Course:
         """Whether any joint's spring depends on another's."""
         return self.dragged is not None or self.induced is not None
 
+    @property
+    def gated(self) -> tuple[Relation, ...]:
+        """Relations that hold under conditions, in the order of their columns."""
+        return tuple(relation for relation in self.relations if relation.while_)
+
     def coupling(self, strength: float) -> FloatArray:
-        """Strength times delta for each relation between moving joints; (d, d), targets in rows."""
-        matrix = np.zeros((len(self.joints), len(self.joints)))
+        """Strength times delta for each relation between moving joints; (d, c), targets in rows."""
+        d, gated = len(self.joints), self.gated
+        matrix = np.zeros((d, d + len(gated)))
         for relation in self.relations:
             row, column = self.joints.index(relation.target), self.joints.index(relation.source)
-            matrix[row, column] = relation.sign * strength
+            matrix[row, d + gated.index(relation) if relation.while_ else column] = relation.sign * strength
         return matrix

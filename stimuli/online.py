@@ -25,31 +25,35 @@ class Runner:
         self, course: Course, positions: FloatArray | None = None, velocities: FloatArray | None = None
     ) -> None:
         """At the course's start and at rest, unless it comes from elsewhere, as in a sequence of motions."""
-        d = len(course.joints)
+        d, c = len(course.joints), len(course.joints) + len(course.gated)
         self.share = 0.0  # of the duration gone by
-        self._motion = np.zeros((2, d))  # offsets from the start; velocities per share of the clock
-        self._pending = np.zeros(
-            (2, d, d)
-        )  # change of Secondary Action's strength still to come, and its rate
+        # Offsets from the start of all joints and what passed the gates; velocities per share of the clock.
+        self._motion = np.zeros((2, c))
+        # Change of Secondary Action's strength still to come, and its rate.
+        self._pending = np.zeros((2, d, c))
         self._carries = False
         self._pull = np.zeros(d)  # attractors now
-        self._set_out(course)
         if positions is not None:
-            self._motion[0] = positions - course.start
+            self._motion[0, :d] = positions - course.start
         if velocities is not None:
-            self._motion[1] = velocities * course.tau_s / max(pace(course, 0.0), ROUNDING)
+            self._motion[1, :d] = velocities * course.tau_s / max(pace(course, 0.0), ROUNDING)
+        self._set_out(course)
 
     @property
     def positions(self) -> FloatArray:
         """Positions shown now, (d,)."""
-        shown: FloatArray = self.course.start + self._motion[0]
+        shown: FloatArray = self.course.start + self._motion[0, : len(self.course.joints)]
         if self._carries:
-            shown += (self.course.carrying + self._pending[0]) @ self.velocities
+            shown += (self.course.carrying + self._pending[0]) @ self._velocities
         return shown
 
     @property
     def velocities(self) -> FloatArray:
         """Velocities of the state now, per second, (d,): without Secondary Action."""
+        return self._velocities[: len(self.course.joints)]
+
+    @property
+    def _velocities(self) -> FloatArray:
         now: FloatArray = self._motion[1] * (pace(self.course, self.share) / self.course.tau_s)
         return now
 
@@ -76,7 +80,7 @@ class Runner:
         slower = course.tau_s / former.tau_s
         self._pending[0] += former.carrying - course.carrying
         self._pending[1] *= slower
-        self._motion[0] += former.start - course.start
+        self._motion[0, : len(course.joints)] += former.start - course.start
         self._motion[1] *= slower * pace(former, share) / max(pace(course, share), ROUNDING)
         self._set_out(course)
 
@@ -91,17 +95,26 @@ class Runner:
 
     def _set_out(self, course: Course) -> None:
         self.course = course
-        self._groups = groups(course)
         self._pull = attractor(course, np.array([self.share]))[0]
         self._carries = course.carried is not None or bool(self._pending.any())
+        self._groups = groups(course, gated=self._carries or course.is_coupled)
+        for group in self._groups:
+            if group.gates is not None:
+                velocities = group.gates.passed(self._motion[:, None], course.start)[1]
+                self._motion[1, group.columns] = velocities[0]
 
     def _move(self, pull: FloatArray, h: float, anticipating: bool) -> None:
         """Take a step of h shares; the attractors are `pull` before and `self._pull` after it, (d,) each."""
-        old, new = self._motion, np.empty_like(self._motion)
+        old, new = self._motion, self._motion.copy()
         for group in self._groups:
+            if group.gates is not None:
+                both = np.stack([old, new], axis=1)
+                steps, velocities = group.gates.passed(both, self.course.start)
+                new[:, group.columns] = old[0, group.columns] + steps[0], velocities[1]
+                continue
             gain, mirror = (group.gain, group.mirror) if anticipating else (1.0, 1.0)
             step = step_of(self.course.scheme, self.course.rate, h, gain)
-            own = slice(None) if len(self._groups) == 1 else group.columns
+            own = slice(len(pull)) if len(self._groups) == 1 else group.columns
             state, begin, end = old[:, own], mirror * pull[own], mirror * self._pull[own]
             if group.depth:
                 shift, begin_push = self._from_sources(group, old)

@@ -53,8 +53,15 @@ def integrate(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArr
     shares = sampled(n, h)
     anticipating = int(np.count_nonzero(shares[:-1] < course.window - ROUNDING))  # steps
     pull = attractor(course, shares)  # (n + 1, d)
-    motion = np.zeros((2, *pull.shape))
-    for group in groups(course):
+    gated = course.is_coupled or course.carried is not None
+    d = len(course.joints)
+    motion = np.zeros((2, n + 1, d + len(course.gated) * gated))
+    for group in groups(course, gated=gated):
+        if group.gates is not None:
+            steps, velocities = group.gates.passed(motion, course.start)
+            motion[0, 1:, group.columns] = np.cumsum(steps, axis=0).T
+            motion[1, :, group.columns] = velocities.T
+            continue
         own = pull[:, group.columns]
         if group.depth:
             shift = motion @ course.displaced[group.columns].T
@@ -70,7 +77,7 @@ def integrate(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArr
         step = step_of(course.scheme, course.rate, h)
         rest = respond((own + pushed)[border:], made[:, -1], step)
         motion[:, :, group.columns] = np.concatenate([made[:, :-1], rest], axis=1) - shift
-    positions, velocities = motion[0], motion[1] / course.tau_s
+    positions, velocities = motion[0, :, :d], motion[1] / course.tau_s
     if course.carried is not None:
         positions = positions + velocities @ course.carried.T
-    return course.start + positions, velocities
+    return course.start + positions, velocities[:, :d]

@@ -6,6 +6,7 @@ are compared only after division by the joint's range.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
@@ -45,12 +46,23 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Within:
+    """A joint's limits within which something holds."""
+
+    joint: str
+    lower: float  # minus infinity where there is none
+    upper: float
+    edge: float = math.radians(10.0)  # the way inside a limit on which what holds fades
+
+
+@dataclass(frozen=True)
 class Relation:
     """A source joint whose motion is carried over to a target joint (Secondary Action, Follow Through)."""
 
     source: str
     target: str
     sign: Literal[1, -1]  # the paper's delta
+    while_: tuple[Within, ...] = ()  # joints between them, and where these keep the axes aligned
 
 
 @dataclass(frozen=True)

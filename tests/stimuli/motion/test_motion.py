@@ -99,7 +99,16 @@ def test_a_demonstration_out_of_range_is_named_as_such(spec, robot):
 
 
 def test_relations_follow_from_the_tree(robot):
-    assert found(robot) == (Relation("Hip", "Waist", -1), Relation("Waist", "Elbow", -1))
+    first, *gated = found(robot)
+    assert first == Relation("Hip", "Waist", -1)
+    assert [(one.source, one.target, one.sign) for one in gated] == [
+        ("Waist", "Elbow", s) for s in (1, -1, 1)
+    ]
+    middle = gated[1].while_[0]
+    assert middle.joint == "Shoulder"
+    assert [middle.lower, middle.upper] == pytest.approx(np.radians([-30, 30]), abs=0.01)
+    assert gated[0].while_[0].upper == pytest.approx(np.radians(-150), abs=0.01)
+    assert np.isinf(gated[0].while_[0].lower)
     own = (Relation("Waist", "Elbow", 1), Relation("Hip", "Waist", 1))
     assert relations_of(replace(robot, relations=own), robot.joint_names) == own[::-1]
     assert relations_of(robot, ("Hip", "Elbow")) == ()
