@@ -145,6 +145,17 @@ def in_causal_order(robot: str, relations: list[Relation]) -> tuple[Relation, ..
     return tuple(done)
 
 
+def in_short(relations: tuple[Relation, ...]) -> str:
+    """Sources and their targets on one line, and how many relations hold under conditions."""
+    targets: dict[str, dict[str, None]] = {}
+    for relation in relations:
+        targets.setdefault(relation.source, {})[relation.target] = None
+    gated = sum(bool(relation.while_) for relation in relations)
+    listed = "; ".join(f"{source} -> {', '.join(driven)}" for source, driven in targets.items())
+    while_ = f" ({gated} of {len(relations)} while joints between are within limits)" if gated else ""
+    return (listed or "no joint drives another") + while_
+
+
 def described(relation: Relation, robot: Robot) -> str:
     """A relation in words, such as `HipPitch -> HeadPitch (opposed) while HeadYaw -30…30 deg`."""
     opposed = " (opposed)" if relation.sign < 0 else ""
