@@ -11,6 +11,7 @@ from pydantic import BaseModel
 from stimuli.errors import InputError
 from stimuli.gestures import read_gesture
 from stimuli.motion import generate
+from stimuli.relations import in_short, relations_of
 from stimuli.robots import load_robot
 from study.balance import balance
 from study.orders import cycle, draw_plan
@@ -81,26 +82,32 @@ def _structure(protocol: Protocol) -> Iterator[Finding]:
 
 
 def _motions(protocol: Protocol) -> Iterator[Finding]:
-    """Every gesture can be read, and the robot can do every stimulus."""
-    try:
-        robot = load_robot(protocol.robot, protocol.folder)
-    except InputError as error:
-        yield Finding("wrong", "robot", str(protocol.source.problem(("robot",), str(error))))
-        return
-    broken = []
-    for name, path in protocol.gestures.items():
+    """Every gesture can be read, and the robots can do every stimulus."""
+    robots, broken = {}, []
+    for name in protocol.robots:
         try:
-            read_gesture(protocol.folder / path, robot)
+            robots[name] = load_robot(name, protocol.folder)
+        except InputError as error:
+            broken.append(str(protocol.source.problem(protocol.place_of_robot(name), str(error))))
+    if broken:
+        yield Finding("wrong", "robot", "\n".join(broken))
+        return
+    for name, gesture in protocol.gestures.items():
+        try:
+            read_gesture(protocol.folder / gesture.file, robots[protocol.robot_of(name)])
         except InputError as error:
             broken.append(str(protocol.source.problem(("gestures", name), str(error))))
     if broken:
         yield Finding("wrong", "gestures", "\n".join(broken))
         return
-    yield Finding("good", "gestures", f"{len(protocol.gestures)} read for {robot.title}")
+    titles = ", ".join(robot.title for robot in robots.values())
+    yield Finding("good", "gestures", f"{len(protocol.gestures)} read for {titles}")
+    for robot in robots.values():
+        yield Finding("good", "relations", in_short(relations_of(robot, robot.joint_names)))
     beyond = []
     for spec in specs(protocol).values():
         try:
-            generate(spec, robot)
+            generate(spec, robots[spec.robot])
         except InputError as error:
             beyond.append(str(error))
     if beyond:

@@ -114,6 +114,7 @@ def codebook(protocol: Protocol, *, kind: Kind = "participant") -> dict[str, Any
             for part in protocol.parts.values()
         },
         "demographics": _items(protocol.demographics),
+        "amendments": [amendment.model_dump(mode="json") for amendment in protocol.amendments],
         "left out": "Practice trials.",
     }
 

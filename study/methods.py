@@ -31,7 +31,7 @@ def _count(n: int, one: str, many: str | None = None) -> str:
 def _stimuli(protocol: Protocol) -> Iterator[str]:
     video = protocol.video
     yield f"We demonstrated {_count(len(protocol.gestures), 'gesture')} ({', '.join(protocol.gestures)})"
-    yield f"for the robot {protocol.robot}, learned each as a Dynamic Movement Primitive"
+    yield f"for the robot {' and '.join(protocol.robots)}, learned each as a Dynamic Movement Primitive"
     yield f"({protocol.learning.n_weights} basis functions, gain {protocol.learning.alpha:g})"
     yield "and modulated it with animation principles,"
     yield f"which gave {_count(len(protocol.stimuli), 'stimulus', 'stimuli')}."

@@ -34,6 +34,8 @@ def _head(protocol: Protocol) -> Iterator[str]:
     if protocol.ethics:
         yield f"- Ethics approval: {protocol.ethics}"
     yield f"- Protocol: SHA-256 `{protocol.sha256}` (content of the protocol and the files it names)"
+    for change in protocol.amendments:
+        yield f"- Amended on {change.date} (SHA-256 `{change.replaces[:12]}` before): {change.reason}"
     yield "- To be registered before the first participant takes part."
 
 
@@ -73,6 +75,9 @@ def _design(protocol: Protocol) -> Iterator[str]:
     for part in protocol.parts.values():
         yield from ("", f"### {part.title.in_('en')} (`{part.id}`)", "")
         yield f"- Judged: {_ids(part.stimuli)}."
+        if part.only_if:
+            conditions = " and ".join(f"{item} is {' or '.join(a)}" for item, a in part.only_if.items())
+            yield f"- Shown only to participants with these earlier answers: {conditions}."
         if part.references:
             yield f"- Each is seen after its reference: {_ids(dict.fromkeys(part.references.values()))}."
         yield f"- Order: {described(part.order)}."
@@ -114,7 +119,7 @@ def described(order: Order) -> str:
 
 def _stimuli(protocol: Protocol) -> Iterator[str]:
     yield from ("", "## Stimuli", "")
-    yield f"Robot: {protocol.robot}. Parameters that are not listed are neutral."
+    yield f"Robot: {', '.join(protocol.robots)}. Parameters that are not listed are neutral."
     yield from ("", "| id | gesture | parameters | SHA-256 |", "|---|---|---|---|")
     for stimulus_id, spec in specs(protocol).items():
         modulation = spec.modulation.model_dump(mode="json")

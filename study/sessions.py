@@ -59,12 +59,16 @@ class Verdict(Enum):
     NOT_YET = "not yet"  # the step is unknown, or others come before it
 
 
-def steps(plan: Plan, *, demographics: bool = True) -> tuple[Step, ...]:
-    """All pages between consent and debriefing, in order: demographics, instructions, practice, parts."""
+def steps(plan: Plan, *, demographics: bool = True, left_out: Collection[str] = ()) -> tuple[Step, ...]:
+    """All pages between consent and debriefing, in order: demographics, instructions, practice, parts.
+
+    `left_out` are the parts that earlier answers spare this participant.
+    """
+    trials_due = [trial for trial in plan.trials if trial.part not in left_out]
     pages: list[Step] = []
     if demographics:
         pages.append(Step(key="demographics", kind="demographics"))
-    for section, trials in groupby(plan.trials, key=lambda trial: PRACTICE if trial.practice else trial.part):
+    for section, trials in groupby(trials_due, key=lambda trial: PRACTICE if trial.practice else trial.part):
         part = None if section == PRACTICE else section
         pages.append(Step(key=f"instructions:{section}", kind="instructions", part=part))
         for number, trial in enumerate(trials, start=1):

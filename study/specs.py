@@ -13,11 +13,11 @@ from study.protocol import Protocol, ProtocolError
 
 def specs(protocol: Protocol) -> dict[str, StimulusSpec]:
     """The specification of every stimulus by id. Raises ProtocolError where a gesture's file is missing."""
-    robot = load_robot(protocol.robot, protocol.folder)
+    robots = {name: load_robot(name, protocol.folder) for name in protocol.robots}
     missing = [
         protocol.source.problem(("gestures", name), "cannot be found in this folder")
-        for name, path in protocol.gestures.items()
-        if not (protocol.folder / path).is_file()
+        for name, gesture in protocol.gestures.items()
+        if not (protocol.folder / gesture.file).is_file()
     ]
     if missing:
         raise ProtocolError(missing)
@@ -34,16 +34,17 @@ def specs(protocol: Protocol) -> dict[str, StimulusSpec]:
     return {
         stimulus.id: StimulusSpec(
             id=stimulus.id,
-            robot=protocol.robot,
-            robot_sha256=robot.sha256,
-            gesture=gesture,
-            gesture_sha256=sha256_of(gesture),
+            robot=robot,
+            robot_sha256=robots[robot].sha256,
+            gesture=file,
+            gesture_sha256=sha256_of(file),
             modulation=stimulus.modulation,
             learning=protocol.learning,
             video=video,
         )
         for stimulus in protocol.stimuli.values()
-        for gesture in [protocol.folder / protocol.gestures[stimulus.gesture]]
+        for robot in [protocol.robot_of(stimulus.gesture)]
+        for file in [protocol.folder / protocol.gestures[stimulus.gesture].file]
     }
 
 

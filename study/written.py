@@ -93,6 +93,7 @@ def _message(detail: ErrorDetails, fields: Iterable[str]) -> str:
     reworded = {
         "missing": "is missing",
         "too_short": "must not be empty",
+        "string_too_short": "must not be empty",
         "model_type": "must be a mapping (name: value)",
         "dict_type": "must be a mapping (name: value)",
         "list_type": "must be a list",
@@ -112,7 +113,12 @@ def _message(detail: ErrorDetails, fields: Iterable[str]) -> str:
     if detail["type"] == "literal_error":
         names = re.findall(r"'([^']*)'", detail["ctx"]["expected"])
         return f"will not do; {nearest(detail['input'], names)}"
-    return detail["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+    return (
+        detail["msg"]
+        .removeprefix("Value error, ")
+        .replace("Input should be", "must be")
+        .replace("String should", "must")
+    )
 
 
 _SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -12,7 +13,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from stimuli.principles import Modulation
 from study.questions import Asked, Question
 from study.text import Text
-from study.written import Written, wrong
+from study.written import Written, wrong, wrong_at
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
 Method = Literal["williams", "latin square", "shuffled", "fixed", "between participants"]
@@ -50,6 +51,20 @@ class Selection(Written):
     def gestures(self) -> tuple[str, ...]:
         """The demonstrations, one or more."""
         return tuple(self.gesture)
+
+
+class Gesture(Written):
+    """A demonstration: its file, and the robot that shows it where that is not the study's."""
+
+    file: Path
+    robot: str | None = None
+
+
+def _file(value: Any) -> Any:
+    return {"file": value} if isinstance(value, (str, Path)) else value
+
+
+WrittenGesture = Annotated[Gesture, BeforeValidator(_file, json_schema_input_type=Path | Gesture)]
 
 
 @dataclass(frozen=True)
@@ -128,6 +143,25 @@ def _order(value: Any) -> Any:
     return {"stimuli": value} if isinstance(value, str) else value
 
 
+def _answers(value: Any) -> Any:
+    """Read one answer as a list of one, and numbers as the texts that answers are."""
+    if not isinstance(value, Mapping) or not value:
+        raise wrong("must be answers by item, such as {experience: [some, much]}")
+    listed = {item: answers if isinstance(answers, list) else [answers] for item, answers in value.items()}
+    plain = (str, int, float)
+    for item, answers in listed.items():
+        if not answers or not all(isinstance(answer, plain) for answer in answers):
+            raise wrong_at((item,), "must be an answer, or a list of answers", answers)
+    return {item: [str(answer) for answer in answers] for item, answers in listed.items()}
+
+
+Condition = Annotated[
+    dict[str, tuple[str, ...]],
+    BeforeValidator(_answers, json_schema_input_type=dict[str, str | list[str]]),
+]
+"""Items asked earlier, each with the answers of which one was given."""
+
+
 class WrittenPart(Written):
     """A part as the protocol has it; `Protocol.parts` has it resolved."""
 
@@ -138,6 +172,7 @@ class WrittenPart(Written):
     order: Annotated[Order, BeforeValidator(_order, json_schema_input_type=Method | Order)] = Order(
         stimuli="williams"
     )
+    only_if: Condition = Field(default_factory=dict, alias="if")
     ask: tuple[Asked, ...] = Field(min_length=1)
 
 
@@ -166,7 +201,12 @@ class Part:
     questions: tuple[Question, ...]
     order: Order
     references: Mapping[str, str] = field(default_factory=dict)
+    only_if: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def reference_of(self, stimulus: str) -> str | None:
         """The clip shown before this one."""
         return self.references.get(stimulus)
+
+    def due(self, given: Mapping[str, Collection[str]]) -> bool:
+        """Whether this part is shown to somebody who gave these answers earlier, by item."""
+        return all(set(answers) & set(given.get(item, ())) for item, answers in self.only_if.items())

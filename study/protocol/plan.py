@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
+from study.protocol.recruitment import Recruitment
 from study.written import Seconds, Written, nearest, wrong
 
 Probability = Annotated[float, Field(gt=0, lt=1)]
@@ -47,6 +48,8 @@ class Participants(Written):
     planned: int = Field(ge=1, le=100_000)
     abandoned_after: Seconds = 3600.0  # without an answer; the place in the design is then given to the next
     exclude: Exclusions = Exclusions()
+    recruitment: Recruitment = Recruitment()
+    peeking: bool = False  # whether the report may be seen before as many as planned have completed
 
 
 class Hypothesis(Written):

@@ -15,16 +15,26 @@ from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, field
 
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
+from study.protocol.amendments import Amendment
 from study.protocol.errors import ProtocolError
 from study.protocol.modulations import read_levels, read_modulations
-from study.protocol.parts import NEUTRAL, PRACTICE, Name, Part, Practice, Stimulus, WrittenPart
+from study.protocol.parts import (
+    NEUTRAL,
+    PRACTICE,
+    Name,
+    Part,
+    Practice,
+    Stimulus,
+    WrittenGesture,
+    WrittenPart,
+)
 from study.protocol.plan import Analysis, Participants
 from study.protocol.references import contradictions
 from study.protocol.source import Source, read_source
 from study.protocol.texts import Texts, WrittenTexts, completed, files_named_in, shipped, shipped_demographics
 from study.questions import Asked
 from study.text import Text
-from study.written import NAME, Seconds, Written, wrong
+from study.written import NAME, Location, Seconds, Written, wrong
 
 Language = Annotated[str, Field(pattern=r"^[a-z]{2,3}(-[A-Z]{2})?$")]
 
@@ -37,6 +47,7 @@ class Video(Written):
     camera: str = "auto"
     lead_in: Seconds = 0.5
     hold: Seconds = 0.5
+    replays: int | None = Field(None, ge=0)  # of a clip watched in full; any number unless told
 
     @field_validator("size")
     @classmethod
@@ -70,7 +81,7 @@ class Protocol(Written):
     seed: int = Field(ge=0)
     video: Video = Video()
     learning: WrittenLearning = WrittenLearning()
-    gestures: dict[Name, Path] = Field(min_length=1)
+    gestures: dict[Name, WrittenGesture] = Field(min_length=1)
     modulations: Annotated[dict[Name, Modulation], BeforeValidator(read_modulations)] = Field(
         default_factory=dict
     )
@@ -81,6 +92,7 @@ class Protocol(Written):
     written_parts: dict[Name, WrittenPart] = Field(alias="parts", min_length=1)
     participants: Participants
     analysis: Analysis = Analysis()
+    amendments: tuple[Amendment, ...] = ()
     demographics: tuple[Asked, ...] = Field(default_factory=shipped_demographics, validate_default=True)
     written_texts: WrittenTexts = Field(WrittenTexts(), alias="texts")
 
@@ -108,6 +120,20 @@ class Protocol(Written):
     def folder(self) -> Path:
         """The folder that paths in the protocol start from."""
         return self.path.parent
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """The robots that are seen, the study's own first."""
+        return tuple(dict.fromkeys(sorted(map(self.robot_of, self.gestures), key=self.robot.__ne__)))
+
+    def robot_of(self, gesture: str) -> str:
+        """The robot that shows a gesture."""
+        return self.gestures[gesture].robot or self.robot
+
+    def place_of_robot(self, robot: str) -> Location:
+        """Where in the file a robot is named."""
+        asking = (name for name, gesture in self.gestures.items() if gesture.robot == robot)
+        return ("robot",) if robot == self.robot else ("gestures", next(asking), "robot")
 
     @cached_property
     def stimuli(self) -> Mapping[str, Stimulus]:
@@ -167,6 +193,7 @@ class Protocol(Written):
             questions=written.ask,
             order=written.order,
             references=references,
+            only_if=written.only_if,
         )
 
     @cached_property
@@ -215,7 +242,7 @@ class Protocol(Written):
         The YAML counts as the values read, in the order written: comments and layout do not change the hash,
         nor do new fields of later versions of this software.
         """
-        paths = [str(path) for path in self.gestures.values()]
+        paths = [str(gesture.file) for gesture in self.gestures.values()]
         texts = [text for _, text in self.written_texts if text]
         texts += [part.intro for part in self.written_parts.values() if part.intro]
         paths += [text.root[language] for text in texts for language in files_named_in(text, self.folder)]

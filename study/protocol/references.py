@@ -22,6 +22,7 @@ def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
     yield from lost
     yield from _texts(protocol)
     yield from _questions(protocol)
+    yield from _conditions(protocol)
     if not lost:  # what follows needs the stimuli
         yield from _ids(protocol)
         yield from _hypotheses(protocol)
@@ -86,6 +87,18 @@ def _questions(protocol: Protocol) -> Iterator[Contradiction]:
                 if item in seen:
                     yield (*here, at, question.kind), f"asks for {item} a second time on the page"
                 seen.add(item)
+
+
+def _conditions(protocol: Protocol) -> Iterator[Contradiction]:
+    """Parts shown only after certain answers, and checks on certain trials."""
+    earlier = {item: question.values for question in protocol.demographics for item in question.items}
+    for part_id, part in protocol.written_parts.items():
+        for item, answers in part.only_if.items():
+            here: Location = ("parts", part_id, "if", item)
+            yield from _unknown(here, item, earlier, "item asked before this part")
+            for answer in answers if item in earlier else ():
+                yield from _unknown(here, answer, earlier[item] or (answer,), f"answer to {item}")
+        earlier |= {item: question.values for question in part.ask for item in question.items}
 
 
 def _texts(protocol: Protocol) -> Iterator[Contradiction]:
