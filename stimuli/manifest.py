@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -11,6 +10,7 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from stimuli.errors import InputError
+from stimuli.whole_files import whole_or_nothing
 
 FILE = "manifest.json"
 
@@ -76,9 +76,8 @@ class Manifest(BaseModel):
 
     def save(self, folder: Path) -> None:
         """Write the manifest in one step."""
-        partial = folder / f".{FILE}.{os.getpid()}.part"
-        partial.write_text(self.model_dump_json(indent=1) + "\n", encoding="utf-8")
-        partial.replace(folder / FILE)
+        with whole_or_nothing(folder / FILE) as partial:
+            partial.write_text(self.model_dump_json(indent=1) + "\n", encoding="utf-8")
 
 
 def sha256_of(path: Path) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from fractions import Fraction
 from pathlib import Path
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from stimuli.spec import Video
 from stimuli.trajectory import FloatArray, Trajectory
+from stimuli.whole_files import whole_or_nothing
 
 BT709, LIMITED = 1, 1  # ITU-T H.273 code points: colour matrix, transfer and primaries; video range
 OPTIONS = {"preset": "veryfast", "crf": "18", "profile": "high"}
@@ -37,13 +37,8 @@ def write_video(path: Path, frames: Iterable[NDArray[np.uint8]], *, fps: int) ->
     depend on the number of cores; a keyframe each second, so that a participant can go back; the index
     first, so that playing starts before all is loaded.
     """
-    partial = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
-    try:
-        count = _encode(partial, frames, fps)
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
-    return count
+    with whole_or_nothing(path) as partial:
+        return _encode(partial, frames, fps)
 
 
 def _encode(path: Path, frames: Iterable[NDArray[np.uint8]], fps: int) -> int:

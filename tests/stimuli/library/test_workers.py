@@ -1,0 +1,104 @@
+"""Workers are watched: one that dies or hangs is replaced, its clip tried once more, then named."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from stimuli.errors import InputError
+from stimuli.library import render_missing
+from stimuli.robots.model import Robot
+from stimuli.spec import StimulusSpec, Video
+from stimuli.workers import film_here
+
+MakeSpec = Callable[..., StimulusSpec]
+
+DIES_ONCE = """
+__import__("stimuli.robots.pepper", fromlist=["build"]).build()
+if __import__("os").path.exists({mark!r}) else (__import__("os").mkdir({mark!r}), __import__("os")._exit(9))
+"""
+
+
+def test_a_clip_whose_worker_died_is_made_by_another(spec: MakeSpec, pepper: Robot, tmp_path: Path) -> None:
+    expression = " ".join(DIES_ONCE.format(mark=str(tmp_path / "mark")).split("\n"))
+    frail = dataclasses.replace(pepper, build=partial(eval, expression.strip()))
+    manifest = render_missing([spec("frail")], {"pepper": frail}, tmp_path, workers=1)
+    assert (tmp_path / manifest.clips["frail"].file).is_file()
+
+
+def test_a_stimulus_whose_worker_dies_each_time_is_named_and_the_others_are_made(
+    spec: MakeSpec, pepper: Robot, tmp_path: Path
+) -> None:
+    deadly = dataclasses.replace(pepper, build=partial(os._exit, 9), sha256="0" * 64)
+    doomed = spec("doomed").model_copy(update={"robot": "deadly", "robot_sha256": deadly.sha256})
+    with pytest.raises(InputError, match=r"failed 2 times; not rendered: doomed \(died\)\."):
+        render_missing([doomed, spec("well")], {"pepper": pepper, "deadly": deadly}, tmp_path, workers=1)
+    assert len(list(tmp_path.glob("*.mp4"))) == 1
+
+
+def test_a_worker_that_hangs_is_ended(spec: MakeSpec, pepper: Robot, tmp_path: Path) -> None:
+    stuck = dataclasses.replace(pepper, build=partial(time.sleep, 600))
+    with pytest.raises(InputError, match=r"not rendered: stuck \(no frame for 0\.5 s\)"):
+        list(film_here([spec("stuck")], {"pepper": stuck}, tmp_path, workers=1, silence_s=0.5))
+
+
+RENDER = """
+import resource, sys
+from pathlib import Path
+from stimuli.library import render_missing
+from stimuli.robots import load_robot
+from stimuli.spec import StimulusSpec
+folder = Path(sys.argv[1])
+one = StimulusSpec.model_validate_json((folder / "spec.json").read_text())
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), resource.RLIM_INFINITY))
+    render_missing([one], {"pepper": load_robot("pepper", Path())}, folder / "clips", workers=1)
+"""
+
+
+@pytest.fixture
+def run(spec: MakeSpec, tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
+    """Start rendering a clip of six seconds in a process of its own."""
+    long = Video(width=320, height=180, fps=60, camera="head", lead_in_s=5, hold_s=0.1)
+    (tmp_path / "spec.json").write_text(spec("long", long).model_dump_json())
+    (tmp_path / "run.py").write_text(RENDER)
+
+    def start(*arguments: str) -> subprocess.Popen[str]:
+        command = [sys.executable, str(tmp_path / "run.py"), str(tmp_path), *arguments]
+        return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+
+    return start
+
+
+def test_ctrl_c_leaves_nothing_half_written(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    running = run()
+    deadline = time.monotonic() + 60
+    while not list(tmp_path.glob("clips/.*.part.mp4")) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert list(tmp_path.glob("clips/.*.part.mp4"))
+    running.send_signal(signal.SIGINT)
+    error = running.communicate(timeout=60)[1]
+    assert error.strip().splitlines()[-1] == "KeyboardInterrupt"
+    assert list((tmp_path / "clips").iterdir()) == []
+
+
+def test_a_full_disk_leaves_nothing_half_written_and_says_so(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    running = run("3000")  # bytes a file may have
+    error = running.communicate(timeout=60)[1]
+    assert "InputError" in error.strip().splitlines()[-1]
+    assert "could not be written: File too large. Nothing half written is left." in error
+    assert list((tmp_path / "clips").iterdir()) == []
