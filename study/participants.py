@@ -6,6 +6,7 @@ token's hash is stored, so the database does not open anybody's session.
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import secrets
 from dataclasses import dataclass
@@ -26,7 +27,15 @@ class Participant:
     kind: Kind
     token_sha256: str
     created_at: datetime
-    note: str = ""  # the experimenter's own word for them; never exported
+
+
+@dataclass(frozen=True)
+class Contact:
+    """What may say who a participant is. Kept apart from the answers and never exported."""
+
+    note: str = ""  # the experimenter's own word for them
+    source: str | None = None  # who sent them: prolific, sona, mturk
+    external_id: str | None = None  # what they are called there
 
 
 def new_token() -> str:
@@ -39,14 +48,25 @@ def token_sha256(token: str) -> str:
     return hashlib.sha256(token.encode()).hexdigest()
 
 
-def new_participant(token: str, *, kind: Kind, created_at: datetime, note: str = "") -> Participant:
+def new_personal_code() -> str:
+    """Draw a code of 49 random bits that stands for a personal link where one types, e.g. `k3mz9-q2xwp`."""
+    return f"{_code(5)}-{_code(5)}"
+
+
+def token_of_code(code: str) -> str:
+    """The token a personal code stands for, however it was typed: in capitals, with or without its dash."""
+    typed = "".join(code.lower().replace("-", " ").split())
+    digest = hashlib.sha256(f"personal code {typed}".encode()).digest()
+    return base64.urlsafe_b64encode(digest[:18]).decode()
+
+
+def new_participant(token: str, *, kind: Kind, created_at: datetime) -> Participant:
     """Make a participant with a random name, e.g. `p-7kq2mx9w`."""
     return Participant(
         name=f"{NAME_PREFIX[kind]}-{_code(8)}",
         kind=kind,
         token_sha256=token_sha256(token),
         created_at=created_at,
-        note=note,
     )
 
 

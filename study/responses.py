@@ -34,6 +34,7 @@ class View(BaseModel):
 
     role: Literal["clip", "reference"]  # which stimulus it was stands in the plan; the page does not know
     plays: int = Field(ge=0, le=10_000)  # plays that reached the end
+    starts: int = Field(0, ge=0, le=10_000)  # plays begun
     played_s: Seconds  # truly played in the first full play: sum of forward steps, jumps not counted
     duration_s: Seconds
     frames: int = Field(ge=0)  # put on screen, by requestVideoFrameCallback; 0 where a browser has none
@@ -80,12 +81,17 @@ class Response:
 
 
 def playback_fault(
-    views: Sequence[View], durations_s: Mapping[str, float], elapsed_s: float | None
+    views: Sequence[View],
+    durations_s: Mapping[str, float],
+    *,
+    elapsed_s: float | None,
+    replays: int | None = None,
 ) -> str | None:
     """Say why the clips of a page cannot have been watched, or None if all is well.
 
     `durations_s` maps the role of each clip that had to be watched to its duration; `elapsed_s` is the time
-    since the server handed out the page, None where that is not to be judged (simulated sessions).
+    since the server handed out the page, None where that is not to be judged (simulated sessions); `replays`
+    is how often a clip may be played again after its first full view.
     """
     seen: dict[str, View] = {view.role: view for view in views}
     for role, duration_s in durations_s.items():
@@ -94,6 +100,8 @@ def playback_fault(
             return f"the {role} was not played to its end"
         if view.played_s < PLAYED_ENOUGH * duration_s:
             return f"of the {role} only {view.played_s:.2f} of {duration_s:.2f} s were played"
+        if replays is not None and view.plays > 1 + replays:
+            return f"the {role} was played {view.plays} times; {1 + replays} are allowed"
     needed_s = PLAYED_ENOUGH * sum(durations_s.values())
     if elapsed_s is not None and elapsed_s < needed_s:
         return f"answered {elapsed_s:.2f} s after the page was opened; its clips take {needed_s:.2f} s"

@@ -20,6 +20,7 @@ from uuid import UUID
 
 import httpx
 
+from study.chance import Stream
 from study.export import export_responses
 from study.protocol import Protocol, Stimulus
 from study.questions import Question
@@ -49,9 +50,17 @@ MANNERS: Mapping[str, Manner] = {
     "unsure": Manner(effect=0.4, rt_s=7.0),
     "random clicker": Manner(effect=0.0, rt_s=1.0),
     "yea-sayer": Manner(effect=0.0, same=True, rt_s=2.0),
+    "speeder": Manner(effect=0.2, rt_s=0.4),
     "dropout": Manner(effect=1.0, drops_out=0.1),
 }
-USUAL = {"attentive": 0.8, "unsure": 0.12, "random clicker": 0.05, "yea-sayer": 0.03}  # shares
+USUAL = {  # shares
+    "attentive": 0.8,
+    "unsure": 0.12,
+    "random clicker": 0.03,
+    "yea-sayer": 0.03,
+    "speeder": 0.02,
+}
+EASE = (0.3, 1.3)  # times the manner's effect: some stimuli are hard to read and others plain
 
 
 def rehearse(
@@ -126,8 +135,17 @@ def _choose(
 ) -> dict[str, str]:
     if manner.same and question.values:
         return dict.fromkeys(question.items, list(question.values)[-1])
-    target = None if stimulus is None else target_of(protocol, stimulus, question)
-    return question.simulate(rng, target, manner.effect)
+    if stimulus is None:
+        return question.simulate(rng, None, manner.effect)
+    effect = manner.effect * ease_of(protocol, stimulus)
+    return question.simulate(rng, target_of(protocol, stimulus, question), effect)
+
+
+def ease_of(protocol: Protocol, stimulus: Stimulus) -> float:
+    """How plainly a stimulus shows what is meant; the same for all who see it, and for both of its levels."""
+    hardest, easiest = EASE
+    what = stimulus.principle or stimulus.name or stimulus.gesture
+    return hardest + (easiest - hardest) * Stream("ease", protocol.seed, what).below(1000) / 999
 
 
 def target_of(protocol: Protocol, stimulus: Stimulus, question: Question) -> str | None:

@@ -37,7 +37,7 @@ class Number(Question):
             raise AnswerError(f"{item}: {answer} is more than {self.most:g}")
 
     def guess(self, rng: random.Random) -> str:
-        """Any whole number within the bounds."""
+        """A whole number within the bounds, more often near the lower one: 18 to 65 years, mostly young."""
         least = 0 if self.least is None else self.least
-        most = least + 100 if self.most is None else self.most
-        return str(rng.randint(int(least), int(most)))
+        most = least + 47 if self.most is None else min(self.most, least + 47)
+        return str(round(least + (most - least) * rng.betavariate(1.3, 3.0)))

@@ -17,7 +17,7 @@ from study.storage.store import Store
 
 __all__ = ["Store", "databases", "open_store"]
 
-NOT_DATABASES = {"store", "tables"}
+NOT_DATABASES = {"backups", "migrations", "store", "tables"}
 
 
 def databases() -> tuple[str, ...]:

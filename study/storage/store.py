@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
-from typing import Any, cast
+from pathlib import Path
+from typing import Any, Literal, cast, get_args
 from uuid import UUID
 
 from sqlalchemy import Connection, Engine, RowMapping, func, insert, or_, select, update
 
 from study.orders import assign_slot
-from study.participants import Kind, Participant
+from study.participants import Contact, Kind, Participant
 from study.responses import Response, Submission
 from study.sessions import Session, Step, Verdict, judge, next_step, plan_json, read_plan
-from study.storage.tables import events, metadata, pages, participants, responses, sessions, withdrawals
+from study.storage.migrations import bring_up_to_date
+from study.storage.tables import contacts, events, pages, participants, responses, sessions, withdrawals
+
+Phase = Literal["open", "paused", "closed"]
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,7 @@ class Progress:
     """How far one participant has come."""
 
     participant: Participant
+    contact: Contact
     session: Session | None
     answered: tuple[str, ...]  # keys of steps, in the order answered
     active_at: datetime | None
@@ -37,6 +42,16 @@ class Withdrawal:
     responses: int
 
 
+@dataclass(frozen=True)
+class Event:
+    """Something that happened, such as a video that failed."""
+
+    at: datetime
+    participant: str | None
+    name: str
+    detail: str
+
+
 class Store:
     """Participants, sessions and responses in a database. Every method is one transaction."""
 
@@ -44,7 +59,19 @@ class Store:
         self._read = engine
         self._write = engine.execution_options(writes=True)
         self._assign = engine.execution_options(writes=True, assigns=True)
-        metadata.create_all(self._assign)
+        with self._assign.begin() as db:
+            bring_up_to_date(db)
+
+    @property
+    def kind(self) -> str:
+        """The kind of database: sqlite, postgresql."""
+        return self._read.dialect.name
+
+    @property
+    def file(self) -> Path | None:
+        """Where the database is one file: which."""
+        name = self._read.url.database
+        return Path(name) if self.kind == "sqlite" and name else None
 
     def close(self) -> None:
         """Close all connections."""
@@ -52,20 +79,39 @@ class Store:
 
     # Participants
 
-    def add_participant(self, participant: Participant) -> None:
-        """Write down somebody invited."""
+    def add_participant(self, participant: Participant, contact: Contact | None = None) -> None:
+        """Write down somebody invited, and apart from that what may say who they are."""
         with self._write.begin() as db:
             db.execute(insert(participants).values(vars(participant)))
+            if contact is not None:
+                db.execute(insert(contacts).values(**vars(contact), participant=participant.name))
+
+    def recruit(self, participant: Participant, contact: Contact) -> None:
+        """Write down somebody whom a recruitment service sent; if it sent them before, they are the same."""
+        with self._assign.begin() as db:
+            known = select(contacts.c.participant).where(
+                contacts.c.source == contact.source, contacts.c.external_id == contact.external_id
+            )
+            if name := db.execute(known).scalar():
+                token = {"token_sha256": participant.token_sha256}
+                db.execute(update(participants).where(participants.c.name == name).values(token))
+            else:
+                db.execute(insert(participants).values(vars(participant)))
+                db.execute(insert(contacts).values(**vars(contact), participant=participant.name))
 
     def participant(self, token_sha256: str) -> Participant | None:
         """The participant with the link of that token."""
         with self._read.begin() as db:
-            row = (
-                db.execute(select(participants).where(participants.c.token_sha256 == token_sha256))
-                .mappings()
-                .first()
-            )
+            query = select(participants).where(participants.c.token_sha256 == token_sha256)
+            row = db.execute(query).mappings().first()
         return None if row is None else Participant(**row)
+
+    def contact(self, participant: str) -> Contact:
+        """What may say who they are."""
+        with self._read.begin() as db:
+            query = select(contacts).where(contacts.c.participant == participant)
+            row = db.execute(query).mappings().first()
+        return _read_contact(row)
 
     # Sessions
 
@@ -149,6 +195,25 @@ class Store:
             )
             return verdict
 
+    def given(self, participant: str) -> dict[str, set[str]]:
+        """What a participant answered so far, by item; practice does not count."""
+        with self._read.begin() as db:
+            query = select(responses.c.step, responses.c.answers).where(
+                responses.c.participant == participant
+            )
+            given: dict[str, set[str]] = {}
+            for step, answers in db.execute(query):
+                for answer in answers if not step.startswith("practice:") else ():
+                    given.setdefault(answer["item"], set()).add(answer["value"])
+            return given
+
+    def protocol_hashes(self, kind: Kind = "participant") -> set[str]:
+        """The protocols that sessions of a kind were begun with."""
+        with self._read.begin() as db:
+            query = select(sessions.c.protocol_sha256).distinct()
+            query = query.join(participants, participants.c.name == sessions.c.participant)
+            return set(db.execute(query.where(participants.c.kind == kind)).scalars())
+
     def responses(self, kind: Kind) -> Iterator[tuple[Session, list[Response]]]:
         """All sessions of a kind with their responses in the order given; one session at a time."""
         with self._read.begin() as db:
@@ -174,6 +239,7 @@ class Store:
                 db.execute(select(participants).order_by(participants.c.created_at.desc())).mappings().all()
             )
             begun = {row["participant"]: row for row in db.execute(select(sessions)).mappings()}
+            known = {row["participant"]: row for row in db.execute(select(contacts)).mappings()}
             steps: dict[str, list[str]] = {}
             order = select(responses.c.participant, responses.c.step).order_by(responses.c.answered_at)
             for name, step in db.execute(order):
@@ -181,6 +247,7 @@ class Store:
         return [
             Progress(
                 participant=Participant(**person),
+                contact=_read_contact(known.get(person["name"])),
                 session=_read_session(row) if (row := begun.get(person["name"])) else None,
                 answered=tuple(steps.get(person["name"], ())),
                 active_at=None if row is None else row["active_at"],
@@ -198,6 +265,36 @@ class Store:
         with self._read.begin() as db:
             query = select(events.c.participant, func.count()).where(events.c.name == name)
             return {who: count for who, count in db.execute(query.group_by(events.c.participant)) if who}
+
+    def events(self, names: Collection[str], *, most: int) -> list[Event]:
+        """The latest events of these names, the newest first."""
+        with self._read.begin() as db:
+            columns = (events.c.at, events.c.participant, events.c.name, events.c.detail)
+            query = select(*columns).where(events.c.name.in_(names)).order_by(events.c.number.desc())
+            return [Event(*row) for row in db.execute(query.limit(most))]
+
+    def answered_since(self, moment: datetime, kind: Kind) -> list[datetime]:
+        """When pages were answered since a moment, the oldest first."""
+        with self._read.begin() as db:
+            query = (
+                select(responses.c.answered_at)
+                .join(participants, participants.c.name == responses.c.participant)
+                .where(responses.c.answered_at >= moment, participants.c.kind == kind)
+                .order_by(responses.c.answered_at)
+            )
+            return list(db.execute(query).scalars())
+
+    # Whether the study runs
+
+    @property
+    def phase(self) -> Phase:
+        """Open unless the experimenter paused or closed the study."""
+        last = self.events(get_args(Phase), most=1)
+        return cast("Phase", last[0].name) if last else "open"
+
+    def enter_phase(self, phase: Phase, *, now: datetime) -> None:
+        """Pause, resume or close the study; it stays so when the server starts again."""
+        self.log(phase, "", participant=None, now=now)
 
     # Withdrawal
 
@@ -222,6 +319,10 @@ class Store:
         with self._read.begin() as db:
             columns = (withdrawals.c.participant, withdrawals.c.at, withdrawals.c.responses)
             return [Withdrawal(*row) for row in db.execute(select(*columns).order_by(withdrawals.c.number))]
+
+
+def _read_contact(row: RowMapping | None) -> Contact:
+    return Contact() if row is None else Contact(row["note"], row["source"], row["external_id"])
 
 
 def _session(db: Connection, participant: str) -> Session | None:

@@ -1,4 +1,7 @@
-"""The tables. Rows of answers are only ever added; a withdrawal deletes them and leaves a dated note."""
+"""The tables. Rows of answers are only ever added; a withdrawal deletes them and leaves a dated note.
+
+A change here needs a step in `migrations/versions`.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from sqlalchemy import (
     Dialect,
     Float,
     ForeignKey,
+    Index,
     Integer,
     MetaData,
     String,
@@ -49,7 +53,16 @@ participants = Table(
     Column("kind", String(20), nullable=False),
     Column("token_sha256", String(64), nullable=False, unique=True),
     Column("created_at", Utc, nullable=False),
-    Column("note", Text, nullable=False),
+)
+
+contacts = Table(  # all that may say who somebody is; never exported
+    "contacts",
+    metadata,
+    Column("participant", ForeignKey("participants.name", ondelete="CASCADE"), primary_key=True),
+    Column("note", Text, nullable=False),  # the experimenter's own word for them
+    Column("source", String(20)),  # who sent them: prolific, sona, mturk
+    Column("external_id", String(200)),  # what they are called there
+    Index("ix_contacts_external", "source", "external_id", unique=True),
 )
 
 sessions = Table(

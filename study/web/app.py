@@ -7,11 +7,13 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, Response
 from starlette.exceptions import HTTPException
 
-from study.web import experimenter, participant
+from study.web import entry, experimenter, participant
 from study.web.language import load_language
+from study.web.limits import Limits
 from study.web.pages import STATIC, render, static_version
 from study.web.security import Guard
 from study.web.site import Site
+from study.web.visitor import language_of
 
 LONGEST_BODY = 256 * 1024  # bytes; an answered page with its playback records has some 10 kB
 FOR_EVER = {"Cache-Control": "public, max-age=31536000, immutable"}
@@ -25,6 +27,8 @@ def create_app(site: Site) -> FastAPI:
         max_body_size=LONGEST_BODY,
     )
     app.state.site = site
+    app.state.limits = Limits()
+    app.include_router(entry.router)
     app.include_router(participant.router)
     app.include_router(experimenter.router)
     app.add_middleware(Guard)
@@ -49,17 +53,31 @@ def create_app(site: Site) -> FastAPI:
     async def say_what_went_wrong(request: Request, fault: HTTPException) -> Response:
         """A page for people, JSON for the page's scripts."""
         if request.method == "POST" and request.headers.get("content-type") == "application/json":
-            return JSONResponse({"reason": str(fault.detail)}, fault.status_code)
-        language = participant.language_of(request)
+            return JSONResponse({"reason": str(fault.detail)}, fault.status_code, fault.headers)
+        language = language_of(request)
+        if fault.status_code == 401:
+            return render(request, "login.html", language=language, status=401, fault=None)
         say = load_language(language).text
-        return render(
+        heading, message = {
+            404: (
+                say("This page is not here"),
+                say("The address may be mistyped. Please use the link you were given."),
+            ),
+            429: (
+                say("Please wait a little"),
+                say("There were too many attempts. Please try again in a minute."),
+            ),
+        }.get(fault.status_code, (say("This did not work"), say("Please go back and try again.")))
+        page = render(
             request,
             "message.html",
             language=language,
             status=fault.status_code,
-            heading=say("This page is not here") if fault.status_code == 404 else say("This did not work"),
-            message=say("The address may be mistyped. Please use the link you were given."),
+            heading=heading,
+            message=message,
         )
+        page.headers.update(fault.headers or {})
+        return page
 
     @app.exception_handler(RequestValidationError)
     async def say_what_is_malformed(_: Request, fault: RequestValidationError) -> Response:

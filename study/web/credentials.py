@@ -48,6 +48,19 @@ class Credentials:
         """Whether a form was made for the holder of that cookie."""
         return hmac.compare_digest(token.encode(), self.form_token(cookie).encode())
 
+    def token_for(self, person: str) -> str:
+        """The token of somebody whom others name, which only this server can make."""
+        return self._sign("token", person)[:43]
+
+    @property
+    def kiosk_key(self) -> str:
+        """Six digits by which the experimenter lets the next participant in."""
+        return f"{int(self._sign('kiosk', ''), 16) % 10**6:06d}"
+
+    def is_kiosk_key(self, typed: str) -> bool:
+        """Whether this is the key."""
+        return hmac.compare_digest(typed.encode(), self.kiosk_key.encode())
+
     def _sign(self, purpose: str, content: str) -> str:
         return hmac.new(self.key, f"{purpose}:{content}".encode(), hashlib.sha256).hexdigest()
 

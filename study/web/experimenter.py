@@ -12,13 +12,14 @@ from fastapi.responses import RedirectResponse, Response
 from starlette.exceptions import HTTPException
 
 from study.export import codebook, responses_csv
-from study.participants import new_participant, new_token
+from study.participants import Contact, new_participant, new_token
 from study.sessions import next_step
 from study.web.credentials import LOGIN_LASTS
 from study.web.language import load_language
 from study.web.pages import render
-from study.web.participant import language_of, steps_of
+from study.web.participant import steps_of
 from study.web.site import Site, hashes, site_of
+from study.web.visitor import language_of
 
 COOKIE = "experimenter"
 MOST_LINKS = 200  # made at once
@@ -100,7 +101,8 @@ def make_links(
     for _ in range(count):
         token = new_token()
         kind = "test" if test else site.kind
-        site.store.add_participant(new_participant(token, kind=kind, created_at=site.clock(), note=note))
+        participant = new_participant(token, kind=kind, created_at=site.clock())
+        site.store.add_participant(participant, Contact(note=note) if note else None)
         links.append(str(request.url_for("link", token=token)))
     return _overview(request, links=links)
 
@@ -178,7 +180,7 @@ def _rows(site: Site) -> list[dict[str, object]]:
             {
                 "name": person.participant.name,
                 "kind": person.participant.kind,
-                "note": person.participant.note,
+                "note": person.contact.note,
                 "state": state,
                 "place": len(person.answered),
                 "pages": len(pages),

@@ -87,7 +87,7 @@ def render(
                 question, number, language, items, options
             ),
             "kind": site.kind,
-            "lab": site.lab,
+            "door": site.door,
         }
         | values
     )

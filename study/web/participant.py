@@ -1,28 +1,27 @@
-"""The participant's pages: entry, consent, the session step by step, the end, and withdrawal."""
+"""The participant's pages: consent, the session step by step, the end, and withdrawal."""
 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from datetime import timedelta
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Form, Request
-from fastapi.responses import JSONResponse, RedirectResponse, Response
+from fastapi.responses import JSONResponse, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 
 from study.orders import draw_plan
-from study.participants import Participant, new_completion_code, new_participant, new_token, token_sha256
+from study.participants import Participant, new_completion_code
 from study.questions import AnswerError, Question
 from study.responses import Submission, playback_fault
 from study.sessions import Session, Step, Verdict, judge, next_step, plan_sha256, steps
-from study.web.language import load_language, preferred
+from study.web.language import load_language
+from study.web.limits import count_wrong_guess, limits_of, require, require_guesses_left
 from study.web.pages import render
 from study.web.site import Clip, Site, site_of
-
-TOKEN = "participant"  # the cookie that holds the token of a personal link
-LANGUAGE = "language"
-COOKIE_LASTS_S = 30 * 24 * 3600
+from study.web.visitor import forget, language_of, participant_of, speaking, to
 
 router = APIRouter()
 
@@ -36,76 +35,30 @@ class Event(BaseModel):
     detail: str = Field("", max_length=500)
 
 
-def language_of(request: Request) -> str:
-    """The language asked for by the address, chosen before, or liked best by the browser."""
-    offered = site_of(request).protocol.languages
-    for wish in (request.query_params.get("lang"), request.cookies.get(LANGUAGE)):
-        if wish in offered:
-            return wish
-    return preferred(request.headers.get("accept-language", ""), offered)
-
-
-def participant_of(request: Request) -> Participant | None:
-    """Whose cookie came with the request."""
-    token = request.cookies.get(TOKEN)
-    return site_of(request).store.participant(token_sha256(token)) if token else None
-
-
-def steps_of(site: Site, session: Session) -> tuple[Step, ...]:
-    """The pages of a session."""
-    return steps(session.plan, demographics=bool(site.protocol.demographics))
+def steps_of(site: Site, session: Session, answers: Mapping[str, str] | None = None) -> tuple[Step, ...]:
+    """The pages of a session, as what was answered so far (and `answers`, on their way) leads to."""
+    conditional = [part for part in site.protocol.parts.values() if part.only_if]
+    given = site.store.given(session.participant) if conditional else {}
+    for item, answer in (answers or {}).items():
+        given.setdefault(item, set()).add(answer)
+    left_out = {part.id for part in conditional if not part.due(given)}
+    return steps(session.plan, demographics=bool(site.protocol.demographics), left_out=left_out)
 
 
 def questions_of(site: Site, step: Step) -> tuple[Question, ...]:
     """What is asked on a page."""
+    return tuple(question for question, _, _ in _asked(site, step))
+
+
+def _asked(site: Site, step: Step) -> list[tuple[Question, tuple[str, ...], tuple[str, ...]]]:
+    """The questions of a page, each with its items and its options in the order shown; () as written."""
     if step.kind == "demographics":
-        return site.protocol.demographics
-    return site.protocol.parts[step.trial.part].questions if step.trial else ()
-
-
-# Entry
-
-
-@router.get("/", name="entry")
-def entry(request: Request) -> Response:
-    """The door: in the lab one may start here, elsewhere a personal link is needed."""
-    site, language = site_of(request), language_of(request)
-    if participant_of(request):
-        return _to(request, "study")
-    if site.lab:
-        return _speaking(render(request, "entry.html", language=language), language)
-    say = load_language(language).text
-    message = say("Please open the personal link you were given.")
-    return render(request, "message.html", language=language, heading=say("Welcome"), message=message)
-
-
-@router.post("/start", name="start")
-def start(request: Request) -> Response:
-    """Somebody starts without a link."""
-    site = site_of(request)
-    if not site.lab:
-        raise HTTPException(403)
-    if participant_of(request):  # a double click
-        return _to(request, "study")
-    token = new_token()
-    site.store.add_participant(new_participant(token, kind=site.kind, created_at=site.clock()))
-    return _remember(request, token)
-
-
-@router.get("/p/{token}", name="link")
-def link(request: Request, token: str) -> Response:
-    """A personal link. The token leaves the address at once and stays in a cookie no script can read."""
-    if site_of(request).store.participant(token_sha256(token)) is None:
-        raise HTTPException(404)
-    return _remember(request, token)
-
-
-@router.post("/leave", name="leave")
-def leave(request: Request) -> Response:
-    """The session is over and the next participant may use this browser."""
-    answer = _to(request, "entry")
-    answer.delete_cookie(TOKEN)
-    return answer
+        return [(question, (), ()) for question in site.protocol.demographics]
+    if step.trial is None:
+        return []
+    trial, questions = step.trial, site.protocol.parts[step.trial.part].questions
+    shown = zip(questions, trial.items, trial.options, strict=True)
+    return [asked for asked in shown if asked[0].asked_at(trial.number)]
 
 
 # The session
@@ -117,11 +70,13 @@ def study(request: Request) -> Response:
     site, language = site_of(request), language_of(request)
     participant = participant_of(request)
     if participant is None:
-        return _to(request, "entry")
-    session = site.store.session(participant.name)
+        return to(request, "entry")
+    session, phase = site.store.session(participant.name), site.store.phase
+    if phase == "paused" or (phase == "closed" and session is None):
+        return _not_now(request, participant, language, paused=phase == "paused")
     if session is None:
         page = render(request, "consent.html", language=language, kind=participant.kind)
-        return _speaking(page, language)
+        return speaking(page, language)
     pages = steps_of(site, session)
     answered = site.store.answered(participant.name)
     step = next_step(pages, answered)
@@ -132,10 +87,31 @@ def study(request: Request) -> Response:
             language=session.language,
             kind=participant.kind,
             completion_code=session.completion_code,
-            completion_url=None,
+            completion_url=site.protocol.participants.recruitment.completion_address(
+                external_id=site.store.contact(participant.name).external_id, code=session.completion_code
+            ),
         )
-    site.store.show_page(participant.name, step.key, now=site.clock())
+    now = site.clock()
+    if site.store.show_page(participant.name, step.key, now=now) < now:
+        site.store.log("page_reopened", step.key, participant=participant.name, now=now)
     return _page(request, participant, session, step=step, pages=pages)
+
+
+def _not_now(request: Request, participant: Participant, language: str, *, paused: bool) -> Response:
+    say = load_language(language).text
+    message = (
+        say("Your answers are stored. Please come back to this page later; you go on where you were.")
+        if paused
+        else say("Nobody can begin any more. Thank you for your interest.")
+    )
+    return render(
+        request,
+        "message.html",
+        language=language,
+        kind=participant.kind,
+        heading=say("The study is paused") if paused else say("The study is closed"),
+        message=message,
+    )
 
 
 @router.post("/consent", name="consent")
@@ -144,6 +120,8 @@ def consent(request: Request, agreed: Annotated[str, Form()], language: Annotate
     site, participant = site_of(request), participant_of(request)
     if participant is None or agreed != "yes" or language not in site.protocol.languages:
         raise HTTPException(400)
+    if site.store.phase != "open":
+        return to(request, "study")
     now = site.clock()
 
     def draw(slot: int) -> Session:
@@ -162,7 +140,7 @@ def consent(request: Request, agreed: Annotated[str, Form()], language: Annotate
 
     stale_after = timedelta(seconds=site.protocol.participants.abandoned_after)
     site.store.begin_session(participant, draw, now=now, stale_after=stale_after)
-    return _to(request, "study")
+    return to(request, "study")
 
 
 @router.post("/study/answers", name="answers")
@@ -172,7 +150,8 @@ def answers(request: Request, submission: Submission) -> JSONResponse:
     session = site.store.session(participant.name) if participant else None
     if participant is None or session is None:
         return JSONResponse({"reason": "no session"}, 409)
-    pages = steps_of(site, session)
+    require(limits_of(request).sendings, participant.name)
+    pages = steps_of(site, session, submission.values)
     answered = site.store.answered(participant.name)
     verdict = judge(submission.id, submission.step, pages=pages, answered=answered)
     if verdict is Verdict.STORE:
@@ -190,6 +169,7 @@ def events(request: Request, event: Event) -> Response:
     site, participant = site_of(request), participant_of(request)
     if participant is None:
         raise HTTPException(409)
+    require(limits_of(request).sendings, participant.name)
     site.store.log(event.name, event.detail, participant=participant.name, now=site.clock())
     return Response(status_code=204)
 
@@ -211,8 +191,10 @@ def withdraw(
     """Delete everything about whoever holds the cookie or the code."""
     site, language, participant = site_of(request), language_of(request), participant_of(request)
     say = load_language(language).text
+    require_guesses_left(request)
     name = participant.name if participant else site.store.participant_with_code(code.strip().upper())
     if name is None or sure != "yes":
+        count_wrong_guess(request)
         fault = say("This code is not known. Please check it, or write to us.")
         return render(request, "withdraw.html", language=language, known=False, fault=fault, status=404)
     site.store.withdraw(name, now=site.clock())
@@ -223,8 +205,7 @@ def withdraw(
         heading=say("Your answers are deleted"),
         message=say("You have withdrawn from the study. Thank you for your time."),
     )
-    answer.delete_cookie(TOKEN)
-    return answer
+    return forget(answer)
 
 
 def _page(
@@ -238,7 +219,7 @@ def _page(
         "number": place + 1,
         "total": len(pages),
         "trial": step.trial,
-        "questions": questions_of(site, step),
+        "questions": _asked(site, step),
         "heading": part.title.in_(language) if part else say("Before we start"),
         "gate": "",
         "instructions": "",
@@ -260,6 +241,7 @@ def _page(
         ],
         "ahead": [_address(request, clip) for clip in site.clips_on(ahead).values()] if ahead else [],
         "answer_url": request.app.url_path_for("answers"),
+        "replays": site.protocol.video.replays,
         "event_url": request.app.url_path_for("events"),
         "next_url": request.app.url_path_for("study"),
         "texts": {name: say(english) for name, english in PAGE_TEXTS.items()},
@@ -281,6 +263,7 @@ PAGE_TEXTS = {
     "missing": "Please answer every question.",
     "offline": "There is no connection at the moment. Your answer is kept on this device and will be sent as "
     "soon as possible. Please leave this page open.",
+    "last": "Watched as often as is possible here",
     "failed": "The video could not be played. Please try again; if it keeps failing, tell the experimenter.",
     "refused": "Your answer could not be stored. Please reload this page.",
 }
@@ -301,27 +284,12 @@ def _fault(site: Site, participant: Participant, step: Step, submission: Submiss
     now = site.clock()
     elapsed_s = (now - site.store.show_page(participant.name, step.key, now=now)).total_seconds()
     return playback_fault(
-        submission.views, durations_s, None if participant.kind == "simulated" else elapsed_s
+        submission.views,
+        durations_s,
+        elapsed_s=None if participant.kind == "simulated" else elapsed_s,
+        replays=site.protocol.video.replays,
     )
 
 
 def _address(request: Request, clip: Clip) -> str:
     return str(request.app.url_path_for("clip", name=clip.name))
-
-
-def _to(request: Request, name: str) -> RedirectResponse:
-    return RedirectResponse(request.app.url_path_for(name), status_code=303)
-
-
-def _remember(request: Request, token: str) -> Response:
-    answer = _to(request, "study")
-    secure = request.url.scheme == "https"
-    answer.set_cookie(TOKEN, token, max_age=COOKIE_LASTS_S, httponly=True, samesite="lax", secure=secure)
-    if (language := request.query_params.get("lang")) in site_of(request).protocol.languages:
-        return _speaking(answer, language)
-    return answer
-
-
-def _speaking(answer: Response, language: str) -> Response:
-    answer.set_cookie(LANGUAGE, language, max_age=COOKIE_LASTS_S, httponly=True, samesite="lax")
-    return answer

@@ -17,10 +17,11 @@ from fastapi import FastAPI
 
 from stimuli.errors import InputError
 from study.participants import Kind
+from study.protocol import amendments
 from study.storage import open_store
 from study.web.app import create_app
 from study.web.credentials import open_credentials
-from study.web.site import Site, clips_of
+from study.web.site import Door, Site, clips_of
 
 if TYPE_CHECKING:
     from stimuli.manifest import Manifest
@@ -50,7 +51,7 @@ def serve(
     host: str = "127.0.0.1",
     port: int = 8000,
     kind: Kind = "participant",
-    lab: bool = True,
+    door: Door = "open",
 ) -> None:
     """Serve a study until Ctrl-C; `announce` is called once it can be visited.
 
@@ -65,8 +66,9 @@ def serve(
         )
     credentials, password = open_credentials(data_folder)
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
+    amendments.check(protocol, store.protocol_hashes())
     clips = clips_of(manifest, clips_folder)
-    app = create_app(Site(protocol, store, clips, credentials, SOFTWARE, kind=kind, lab=lab))
+    app = create_app(Site(protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door))
     server, listener = _server(app, host, port)
     address = f"http://{host}:{listener.getsockname()[1]}"
     links = Links(f"{address}/", f"{address}/experimenter", password)

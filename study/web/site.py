@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from fastapi import Request
 
@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from study.protocol import Protocol
     from study.storage import Store
     from study.web.credentials import Credentials
+
+
+Door = Literal["open", "link", "kiosk"]
+"""Who may come in: anybody; whoever has a link, a code or was recruited; or, at a laboratory's computer that
+is handed from one to the next, whoever sits there after the experimenter's key was typed."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,8 @@ class Site:
     credentials: Credentials
     software: str
     kind: Kind = "participant"  # of whoever enters without a link
-    lab: bool = True  # whether one may enter without a link, and hand the browser on at the end
+    door: Door = "open"
+    analyse: Callable[[Path, Path], object] | None = None  # responses.csv and a folder → report.html in it
     clock: Callable[[], datetime] = field(default=utc_now)
 
     def clips_on(self, trial: Trial) -> dict[str, Clip]:

@@ -5,21 +5,35 @@ const FIRST_WAIT_MS = 500;
 
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-/** Load a clip whole. Resolves to {url, streamed}; after several failures to its address, to be streamed. */
-export async function loadClip(clip, onFailure) {
+/**
+ * Load a clip whole. Resolves to {url, streamed}; after several failures to its address, to be streamed.
+ * `progress` hears the share that has come, `failed` why a try failed.
+ */
+export async function loadClip(clip, { progress, failed }) {
   for (let attempt = 0; attempt < TRIES; attempt += 1) {
     try {
       const response = await fetch(clip.url);
       if (!response.ok) throw new Error(`HTTP ${response.status}`);
-      const blob = await response.blob();
+      const blob = await readAll(response, (bytes) => progress(bytes / clip.size));
       if (blob.size !== clip.size) throw new Error(`${blob.size} of ${clip.size} bytes`);
       return { url: URL.createObjectURL(blob), streamed: false };
     } catch (error) {
-      onFailure(`${clip.role}: ${error.message}`);
+      failed(`${clip.role}: ${error.message}`);
       await pause(FIRST_WAIT_MS * 2 ** attempt);
     }
   }
   return { url: clip.url, streamed: true };
+}
+
+async function readAll(response, heard) {
+  const chunks = [];
+  let bytes = 0;
+  for (const reader = response.body.getReader(); ; ) {
+    const { done, value } = await reader.read();
+    if (done) return new Blob(chunks, { type: "video/mp4" });
+    chunks.push(value);
+    heard((bytes += value.length));
+  }
 }
 
 /** Fetch what comes next into the browser's cache; it is served as immutable, so the next page finds it there. */

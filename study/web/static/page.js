@@ -37,7 +37,7 @@ const move = () => location.replace(page.next_url);
 
 async function preparePlayers() {
   const figures = [...document.querySelectorAll("figure.player")];
-  players = page.clips.map((clip, index) => new Player(figures[index], clip, page.texts));
+  players = page.clips.map((clip, index) => new Player(figures[index], clip, page));
   players.forEach((player, index) => {
     player.onplay = (playing) => players.filter((other) => other !== playing).forEach((other) => other.stop());
     player.onfull = () => {
@@ -55,7 +55,8 @@ async function preparePlayers() {
 }
 
 async function fill(player) {
-  player.load(await loadClip(player.clip, (why) => report("video_retried", `${page.step} ${why}`)));
+  const failed = (why) => report("video_retried", `${page.step} ${why}`);
+  player.load(await loadClip(player.clip, { progress: (share) => player.progress(share), failed }));
 }
 
 function unlock() {

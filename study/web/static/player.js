@@ -16,16 +16,18 @@ export class Player {
   #loaded = false;
   #allowed = false;
   #broken = false;
+  #replays; // how often it may be played again after the first full view; null for any number
 
-  constructor(figure, clip, texts) {
+  constructor(figure, clip, { texts, replays }) {
     this.clip = clip;
     this.#texts = texts;
+    this.#replays = replays;
     this.#video = figure.querySelector("video");
     this.#button = figure.querySelector("button");
     this.#status = figure.querySelector("[role=status]");
     this.#lapse = figure.querySelector("progress");
     this.record = {
-      role: clip.role, plays: 0, played_s: 0, duration_s: 0,
+      role: clip.role, plays: 0, starts: 0, played_s: 0, duration_s: 0,
       frames: 0, dropped: 0, streamed: false, happenings: [],
     };
     this.onplay = () => {};
@@ -36,6 +38,13 @@ export class Player {
   }
 
   get seen() { return this.record.plays > 0; }
+
+  get #spent() { return this.#replays !== null && this.record.plays > this.#replays; }
+
+  /** Say how much of the clip has come, from 0 to 1. */
+  progress(share) {
+    if (!this.#loaded) this.#button.textContent = `${this.#texts.loading} ${Math.floor(100 * share)} %`;
+  }
 
   /** Give it the loaded clip. */
   load({ url, streamed }) {
@@ -64,6 +73,7 @@ export class Player {
 
   async #play() {
     this.onplay(this);
+    if (this.#video.currentTime === 0 || this.#video.ended) this.record.starts += 1;
     this.#looked = performance.now(); // the first frames may be shown before "playing" is heard
     try {
       await this.#video.play();
@@ -87,7 +97,10 @@ export class Player {
     on("pause", () => { this.#look(); this.#playing = false; this.#offerToContinue(); });
     on("waiting", () => this.#say(this.#texts.waiting));
     on("seeking", () => this.#refuseSeek());
-    on("ratechange", () => { if (video.playbackRate !== 1) video.playbackRate = 1; });
+    video.addEventListener("ratechange", () => {
+      this.#note(`rate ${video.playbackRate}`);
+      if (video.playbackRate !== 1) video.playbackRate = 1;
+    });
     on("ended", () => this.#ended());
     on("error", () => this.#failed());
     video.addEventListener("timeupdate", () => this.#look());
@@ -137,10 +150,11 @@ export class Player {
     }
     if (full) this.record.plays += 1;
     this.#playedNow = 0;
-    this.#button.hidden = false;
+    this.#button.hidden = this.#spent;
     this.#button.textContent = this.#texts.again;
     this.#button.classList.toggle("again", full);
-    this.#say(full ? this.#texts.watched : this.#texts.incomplete);
+    const watched = this.#spent && this.#replays > 0 ? this.#texts.last : this.#texts.watched;
+    this.#say(full ? watched : this.#texts.incomplete);
     if (first) this.onfull(this);
   }
 

@@ -64,19 +64,34 @@ def seen(role: str, played_s: float, plays: int = 1) -> View:
 
 
 def test_a_clip_counts_as_watched_from_98_percent() -> None:
-    assert playback_fault([seen("clip", 3.93)], {"clip": 4.0}, 10.0) is None
-    assert "only 3.91" in str(playback_fault([seen("clip", 3.91)], {"clip": 4.0}, 10.0))
-    assert "not played to its end" in str(playback_fault([seen("clip", 4.0, plays=0)], {"clip": 4.0}, 10.0))
+    assert playback_fault([seen("clip", 3.93)], {"clip": 4.0}, elapsed_s=10.0) is None
+    assert "only 3.91" in str(playback_fault([seen("clip", 3.91)], {"clip": 4.0}, elapsed_s=10.0))
+    assert "not played to its end" in str(
+        playback_fault([seen("clip", 4.0, plays=0)], {"clip": 4.0}, elapsed_s=10.0)
+    )
 
 
 def test_the_reference_must_be_watched_too() -> None:
     durations_s = {"reference": 4.0, "clip": 4.0}
-    assert "the reference was not played" in str(playback_fault([seen("clip", 4.0)], durations_s, 10.0))
+    assert "the reference was not played" in str(
+        playback_fault([seen("clip", 4.0)], durations_s, elapsed_s=10.0)
+    )
 
 
 def test_nobody_answers_sooner_than_the_clips_take() -> None:
     views = [seen("reference", 4.0), seen("clip", 4.0)]
     durations_s = {"reference": 4.0, "clip": 4.0}
-    assert playback_fault(views, durations_s, 7.9) is None
-    assert "7.84 s" in str(playback_fault(views, durations_s, 7.8))
-    assert playback_fault(views, durations_s, None) is None
+    assert playback_fault(views, durations_s, elapsed_s=7.9) is None
+    assert "7.84 s" in str(playback_fault(views, durations_s, elapsed_s=7.8))
+    assert playback_fault(views, durations_s, elapsed_s=None) is None
+
+
+def test_a_clip_is_not_played_more_often_than_is_allowed() -> None:
+    def fault(plays: int, replays: int | None) -> str | None:
+        views = [seen("clip", 4.0, plays=plays)]
+        return playback_fault(views, {"clip": 4.0}, elapsed_s=60.0, replays=replays)
+
+    assert fault(9, None) is None
+    assert fault(1, 0) is None
+    assert fault(3, 2) is None
+    assert "played 4 times; 3 are allowed" in str(fault(4, 2))

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-import subprocess
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from uuid import uuid4
 
 import pytest
-import sqlalchemy as sa
 
 from stimuli.errors import InputError
 from study.orders import Plan, Trial
 from study.participants import (
+    Contact,
     Kind,
     Participant,
     new_completion_code,
@@ -27,54 +23,10 @@ from study.participants import (
 from study.responses import Answer, Submission
 from study.sessions import Session, Verdict, plan_sha256, steps
 from study.storage import Store, open_store
+from study.storage.store import Phase
 
 NOON = datetime(2026, 11, 22, 12, tzinfo=UTC)
 HOUR = timedelta(hours=1)
-
-
-@pytest.fixture(scope="module")
-def postgresql(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """A PostgreSQL of our own; Debian keeps its programs out of the path."""
-    found = [shutil.which("initdb"), *sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))]
-    programs = Path(next(path for path in found if path)).resolve().parent
-    folder = tmp_path_factory.mktemp("postgresql")
-    as_user = []
-    if os.geteuid() == 0:  # it refuses to run as root
-        for path in (folder, *folder.parents[:2]):
-            path.chmod(0o755)
-        shutil.chown(folder, "postgres")
-        as_user = ["setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"]
-    data = folder / "data"
-    run = [*as_user, str(programs / "initdb"), "-D", str(data), "-U", "study", "-A", "trust", "-N"]
-    subprocess.run(run, check=True, capture_output=True, cwd=folder)
-    options = f"-k {folder} -c listen_addresses=''"
-    control = [*as_user, str(programs / "pg_ctl"), "-D", str(data), "-w"]
-    subprocess.run(
-        [*control, "-l", str(folder / "log"), "-o", options, "start"],
-        check=True,
-        cwd=folder,
-        stdout=subprocess.DEVNULL,
-    )
-    yield f"postgresql://study@/postgres?host={folder}"
-    subprocess.run([*control, "-m", "immediate", "stop"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
-
-
-@pytest.fixture(params=["sqlite", "postgresql"])
-def store(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Store]:
-    url = f"sqlite:///{tmp_path}/study.db"
-    if request.param == "postgresql":
-        server = request.getfixturevalue("postgresql")
-        name = f"d{uuid4().hex}"
-        engine = sa.create_engine(
-            server.replace("postgresql:", "postgresql+psycopg:"), isolation_level="AUTOCOMMIT"
-        )
-        with engine.connect() as db:
-            db.execute(sa.text(f"CREATE DATABASE {name}"))
-        engine.dispose()
-        url = server.replace("/postgres?", f"/{name}?")
-    opened = open_store(url)
-    yield opened
-    opened.close()
 
 
 def invite(store: Store, kind: Kind = "participant") -> Participant:
@@ -175,6 +127,45 @@ def test_a_withdrawal_leaves_nothing_but_a_dated_note(store: Store) -> None:
     assert store.participant_with_code(session.completion_code) is None
     [note] = store.withdrawals()
     assert (note.participant, note.at, note.responses) == (session.participant, NOON, 1)
+
+
+def test_who_was_sent_twice_is_one_participant_and_keeps_their_session(store: Store) -> None:
+    contact = Contact(source="prolific", external_id="5f0c")
+    first = new_participant("token", kind="participant", created_at=NOON)
+    store.recruit(first, contact)
+    session = begin(store, first)
+    again = new_participant("another token", kind="participant", created_at=NOON)
+    store.recruit(again, contact)
+    returned = store.participant(token_sha256("another token"))
+    assert returned is not None
+    assert store.session(returned.name) == session
+    assert store.contact(returned.name) == contact
+    assert [row.contact for row in store.progress()] == [contact]
+
+
+def test_a_contact_is_deleted_with_the_answers(store: Store) -> None:
+    participant = new_participant(new_token(), kind="participant", created_at=NOON)
+    store.add_participant(participant, Contact(note="Ada"))
+    assert store.contact(participant.name).note == "Ada"
+    store.withdraw(participant.name, now=NOON)
+    assert store.contact(participant.name) == Contact()
+
+
+def test_a_study_stays_paused_until_it_is_resumed(store: Store) -> None:
+    seen = [store.phase]
+    phases: list[Phase] = ["paused", "open", "closed"]
+    for phase in phases:
+        store.enter_phase(phase, now=NOON)
+        seen.append(store.phase)
+    assert seen == ["open", "paused", "open", "closed"]
+
+
+def test_answers_are_counted_from_a_moment_on_and_tests_are_not(store: Store) -> None:
+    session, other = begin(store, invite(store)), begin(store, invite(store, "test"))
+    answer(store, other, "demographics", NOON)
+    for number, page in enumerate(steps(session.plan)):
+        answer(store, session, page.key, NOON + number * HOUR)
+    assert store.answered_since(NOON + HOUR, "participant") == [NOON + HOUR, NOON + 2 * HOUR, NOON + 3 * HOUR]
 
 
 def test_a_page_is_first_shown_once(store: Store) -> None:

@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+import threading
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from stimuli.errors import InputError
+from study.participants import new_participant, new_token
+from study.storage import Store, open_store
+from study.storage.backups import BackupTimer, back_up, restore
+
+NOON = datetime(2026, 11, 22, 12, tzinfo=UTC)
+
+
+def invite(store: Store, count: int) -> None:
+    for _ in range(count):
+        store.add_participant(new_participant(new_token(), kind="participant", created_at=NOON))
+
+
+def names(file: Path) -> set[str]:
+    store = open_store(f"sqlite:///{file}")
+    found = {row.participant.name for row in store.progress()}
+    store.close()
+    return found
+
+
+def test_what_is_restored_is_what_was_backed_up(tmp_path: Path) -> None:
+    file = tmp_path / "study.db"
+    store = open_store(f"sqlite:///{file}")
+    invite(store, 3)
+    copy = back_up(file, tmp_path / "backups", now=NOON)  # while the store is open
+    then = names(copy)
+    invite(store, 2)
+    store.close()
+    assert len(names(file)) == 5
+    restore(copy, file)
+    assert names(file) == then
+    assert len(then) == 3
+
+
+def test_a_backup_made_while_others_write_is_whole(tmp_path: Path) -> None:
+    file = tmp_path / "study.db"
+    store = open_store(f"sqlite:///{file}")
+    writer = threading.Thread(target=invite, args=(store, 200))
+    writer.start()
+    copies = [back_up(file, tmp_path / "backups", now=NOON + timedelta(seconds=n)) for n in range(5)]
+    writer.join()
+    store.close()
+    known = names(file)
+    for copy in copies:
+        restore(copy, tmp_path / "restored.db")
+        assert names(tmp_path / "restored.db") <= known
+
+
+def test_only_the_newest_are_kept(tmp_path: Path) -> None:
+    file = tmp_path / "study.db"
+    open_store(f"sqlite:///{file}").close()
+    made = [back_up(file, tmp_path / "b", now=NOON + timedelta(hours=n), kept=3) for n in range(5)]
+    assert sorted((tmp_path / "b").iterdir()) == made[2:]
+
+
+@pytest.mark.parametrize("content", [b"", b"SQLite format 3\0 and then nothing", b"participants,responses"])
+def test_what_is_no_backup_is_not_restored(tmp_path: Path, content: bytes) -> None:
+    broken, file = tmp_path / "broken.db", tmp_path / "study.db"
+    broken.write_bytes(content)
+    open_store(f"sqlite:///{file}").close()
+    before = file.read_bytes()
+    with pytest.raises(InputError, match=r"broken\.db: is no backup"):
+        restore(broken, file)
+    assert file.read_bytes() == before
+
+
+def test_a_timer_backs_up_and_once_more_at_the_end() -> None:
+    twice, calls = threading.Event(), []
+
+    def make() -> None:
+        calls.append(len(calls))
+        if len(calls) == 2:
+            twice.set()
+
+    with BackupTimer(make, every_s=0.01):
+        assert twice.wait(timeout=10)
+    assert len(calls) >= 3
