@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from stimuli.robots.model import Robot
-from stimuli.scene import PRESETS, Outline, places, pose, studio
+from stimuli.scene import PRESETS, SHADOW, Outline, places, pose, studio
 from stimuli.trajectory import FloatArray, Trajectory
 
 MARGIN = 0.03  # of the picture's height that stays free
@@ -23,10 +23,8 @@ def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, h
     for robot, trajectory in motions:
         if robot.sha256 not in studios:
             model = studio(robot, width=width, height=height)
-            studios[robot.sha256] = (
-                model,
-                Outline(model, np.flatnonzero(model.body_weldid[model.geom_bodyid])),
-            )
+            moving = np.flatnonzero(model.body_weldid[model.geom_bodyid])
+            studios[robot.sha256] = (model, Outline(model, moving[moving != model.geom(SHADOW).id]))
         model, outline = studios[robot.sha256]
         points = _swept(model, outline, robot, trajectory)
         fitting = [name for name in fitting if _inside(points, model, name, width / height)]

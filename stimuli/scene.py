@@ -33,6 +33,7 @@ FOVY_DEG = 24.0
 AZIMUTH_DEG = 14.0  # of the camera, to the robot's left of straight ahead
 ELEVATION_DEG = 4.0
 BACKDROP = (0.82, 0.82, 0.82)
+SHADOW = "contact_shadow"  # the name of its patch of floor
 
 LIGHTS = (  # direction it shines in, diffuse, specular
     ((-0.55, -0.38, -0.74), 0.42, 0.30),  # key, from the front, above and the robot's left
@@ -173,22 +174,23 @@ def add_contact_shadow(spec: mujoco.MjSpec, foot: Foot) -> None:
     image = np.repeat(np.rint(255 * (1 - shade)).astype(np.uint8).reshape(-1, 1), 3, axis=1)
     texture = mujoco.mjtTexture.mjTEXTURE_2D
     spec.add_texture(
-        name="shadow", type=texture, width=pixels, height=pixels, nchannel=3, data=image.ravel().tolist()
+        name=SHADOW, type=texture, width=pixels, height=pixels, nchannel=3, data=image.ravel().tolist()
     )
-    material = spec.add_material(name="shadow", rgba=[*BACKDROP, 1], specular=0, shininess=0)
-    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "shadow"
+    material = spec.add_material(name=SHADOW, rgba=[*BACKDROP, 1], specular=0, shininess=0)
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = SHADOW
     corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     patch = spec.add_mesh(
-        name="shadow",
+        name=SHADOW,
         uservert=(foot.middle + np.pad(size * corners, ((0, 0), (0, 1)))).ravel().tolist(),
         userface=[0, 1, 2, 0, 2, 3],
         usertexcoord=((corners + 1) / 2).ravel().tolist(),
     )
     patch.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     spec.body(foot.link).add_geom(
+        name=SHADOW,
         type=mujoco.mjtGeom.mjGEOM_MESH,
-        meshname="shadow",
-        material="shadow",
+        meshname=SHADOW,
+        material=SHADOW,
         contype=0,
         conaffinity=0,
         mass=0.01,
