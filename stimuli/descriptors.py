@@ -10,6 +10,21 @@ from stimuli.trajectory import FloatArray, Trajectory
 
 STILL = 0.01  # of a joint's range: joints that move less are not counted as moving
 
+UNITS = {
+    "duration_s": "s",
+    "amplitude": "of range",
+    "speed_mean": "1/s",
+    "speed_peak": "1/s",
+    "acceleration_peak": "1/s²",
+    "jerk_rms": "1/s³",
+    "path_length": "of range",
+    "hand_width_m": "m",
+    "hand_height_m": "m",
+    "hand_depth_m": "m",
+    "hand_reach_mean_m": "m",
+}
+"""Units of the descriptors that have one."""
+
 
 def describe(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
     """Descriptors of a motion; positions count as shares of each joint's range, so that all joints compare.

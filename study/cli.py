@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
 
 from stimuli.errors import InputError
 
@@ -45,8 +46,16 @@ Data = Annotated[
     Path | None, typer.Option("--data", help="Folder of the answers; PROTOCOL/data unless told.")
 ]
 Database = Annotated[str | None, typer.Option(help="Database URL; SQLite in the data folder unless told.")]
+DoorOption = Annotated[
+    Literal["open", "link", "kiosk"],
+    typer.Option("--door", help="Who may begin: anybody; only who is invited; or, in a laboratory, by key."),
+]
 Workers = Annotated[
     int | None, typer.Option("--workers", min=1, help="Processes that render; one per core unless told.")
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option("--scheduler", metavar="ADDRESS", help="Dask cluster that renders: tcp://host:port."),
 ]
 
 
@@ -87,28 +96,66 @@ def check(path: ProtocolPath, as_json: AsJson = False) -> None:
 @app.command()
 def preview(
     path: ProtocolPath,
-    stimulus: Annotated[str | None, typer.Argument(metavar="[STIMULUS]", help="All unless told.")] = None,
+    stimuli: Annotated[
+        list[str] | None, typer.Argument(metavar="[STIMULUS …]", help="All unless told.")
+    ] = None,
     clips: Clips = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder; CLIPS/preview unless told.")] = None,
 ) -> None:
-    """Draw a contact sheet of the clips, and print what describes their motion."""
-    from stimuli.contact_sheet import contact_sheet
+    """Draw a contact sheet of the clips and describe their motion.
+
+    Of stimuli named, also a poster and the joints' curves, and two or more side by side in one clip.
+    """
     from stimuli.manifest import Manifest
+    from stimuli.preview import draw_preview
+    from stimuli.robots import load_robot
 
     protocol = _load(path)
     folder = clips or protocol.folder / "stimuli"
     manifest = Manifest.load(folder)
-    shown = list(manifest.clips) if stimulus is None else [stimulus]
-    sheet = folder / ("contact_sheet.png" if stimulus is None else f"{stimulus}.png")
-    contact_sheet(manifest, folder, sheet, stimuli=shown)
-    console.print(f"{sheet} is drawn.")
+    names = {clip.spec["robot"] for clip in manifest.clips.values()}
+    robots = {name: load_robot(name, protocol.folder) for name in names}
+    with console.status("drawing …"):
+        drawn = draw_preview(
+            manifest, folder, out or folder / "preview", stimuli=stimuli or (), robots=robots
+        )
+    console.print(_descriptors(manifest, stimuli))
+    console.print("\n".join(f"{file}" for file in drawn))
+
+
+def _descriptors(manifest: Manifest, stimuli: Sequence[str] | None) -> Table:
+    """What describes each motion: everything of the stimuli named, else of all what tells them apart best."""
+    from stimuli.descriptors import UNITS
+
+    clips = manifest.clips if not stimuli else {id_: manifest.clips[id_] for id_ in stimuli}
+    names = list(dict.fromkeys(name for clip in clips.values() for name in clip.descriptors))
+    shown = {name: f"{name.removesuffix('_s').removesuffix('_m')} ({UNITS.get(name, '–')})" for name in names}
+    if stimuli:
+        table = Table("", *clips)
+        for name, title in shown.items():
+            table.add_row(
+                title, *(f"{clip.descriptors.get(name, float('nan')):.3g}" for clip in clips.values())
+            )
+        return table
+    main = ("duration_s", "amplitude", "speed_mean", "speed_peak", "jerk_rms")
+    table = Table("", *(shown[name] for name in main))
+    for id_, clip in clips.items():
+        table.add_row(id_, *(f"{clip.descriptors[name]:.3g}" for name in main))
+    return table
 
 
 @app.command()
-def render(path: ProtocolPath, clips: Clips = None, workers: Workers = None, as_json: AsJson = False) -> None:
+def render(
+    path: ProtocolPath,
+    clips: Clips = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    as_json: AsJson = False,
+) -> None:
     """Render the clips that are missing."""
     protocol = _load(path)
     folder = clips or protocol.folder / "stimuli"
-    manifest = _render(protocol, folder, workers)
+    manifest = _render(protocol, folder, workers, scheduler)
     if as_json:
         _print_json(manifest.model_dump(mode="json"))
     else:
@@ -123,12 +170,13 @@ def run(
     workers: Workers = None,
     host: str = "127.0.0.1",
     port: int = 8000,
+    door: DoorOption = "open",
 ) -> None:
     """Render what is missing, then serve the study."""
     protocol = _load(path)
     folder = clips or protocol.folder / "stimuli"
     manifest = _render(protocol, folder, workers)
-    _serve(protocol, manifest, folder, data=data, host=host, port=port)
+    _serve(protocol, manifest, folder, data=data, host=host, port=port, door=door)
 
 
 @app.command()
@@ -139,6 +187,7 @@ def serve(
     database: Database = None,
     host: str = "127.0.0.1",
     port: int = 8000,
+    door: DoorOption = "open",
     test: Annotated[
         bool, typer.Option("--test", help="Try the study out: answers are marked and kept apart.")
     ] = False,
@@ -149,7 +198,15 @@ def serve(
     protocol = _load(path)
     folder = clips or protocol.folder / "stimuli"
     _serve(
-        protocol, Manifest.load(folder), folder, data=data, database=database, host=host, port=port, test=test
+        protocol,
+        Manifest.load(folder),
+        folder,
+        data=data,
+        database=database,
+        host=host,
+        port=port,
+        door=door,
+        test=test,
     )
 
 
@@ -161,10 +218,16 @@ def _serve(
     data: Path | None,
     host: str,
     port: int,
+    door: Literal["open", "link", "kiosk"],
     database: str | None = None,
     test: bool = False,
 ) -> None:
     from study.web import serve as serve_until_stopped
+
+    def analyse(responses: Path, out: Path) -> None:
+        from analysis.report import analyse as analyse_responses
+
+        analyse_responses(responses, protocol, out)
 
     def announce(links: Links) -> None:
         console.print(f"[bold]{protocol.title}[/] is open{' as a test' if test else ''}. Ctrl-C closes it.")
@@ -183,6 +246,8 @@ def _serve(
         host=host,
         port=port,
         kind="test" if test else "participant",
+        door=door,
+        analyse=analyse,
     )
     console.print("Closed. Every acknowledged answer is stored.")
 
@@ -235,6 +300,20 @@ def export(
     table = export_responses(store, protocol, out, clips=hashes(clips_of(Manifest.load(folder), folder)))
     store.close()
     console.print(f"{table} and its codebook are written.")
+
+
+@app.command()
+def restore(
+    path: ProtocolPath,
+    backup: Annotated[Path, typer.Argument(metavar="BACKUP", help="A file from PROTOCOL/data/backups.")],
+    data: Data = None,
+) -> None:
+    """Put a backup in the place of the answers; the study must not be running."""
+    from study.storage.backups import restore as restore_backup
+
+    database = (data or _load(path).folder / "data") / "study.db"
+    restore_backup(backup, database)
+    console.print(f"{database} is now as it was in {backup.name}.")
 
 
 @app.command()
@@ -333,20 +412,33 @@ def _load(path: Path) -> Protocol:
     return load_protocol(path)
 
 
-def _render(protocol: Protocol, folder: Path, workers: int | None) -> Manifest:
+def _render(protocol: Protocol, folder: Path, workers: int | None, scheduler: str | None = None) -> Manifest:
     from stimuli.library import Progress as Rendered
     from stimuli.library import render_missing
+    from stimuli.manifest import Manifest
     from stimuli.robots import load_robot
     from study.specs import specs
 
     wanted = specs(protocol)
     robots = {spec.robot: load_robot(spec.robot, protocol.folder) for spec in wanted.values()}
-    with _progress("rendering", None) as advance:
+    try:
+        with _progress("rendering", None) as advance:
 
-        def told(rendered: Rendered) -> None:
-            advance(rendered.done, rendered.total)
+            def told(rendered: Rendered) -> None:
+                advance(rendered.done + rendered.under_way, rendered.total)
 
-        return render_missing(list(wanted.values()), robots, folder, workers=workers, progress=told)
+            return render_missing(
+                list(wanted.values()),
+                robots,
+                folder,
+                workers=workers,
+                scheduler=scheduler,
+                progress=told,
+            )
+    except KeyboardInterrupt:
+        there = len(Manifest.load(folder).clips)
+        console.print(f"Stopped. {there} of {len(wanted)} clips are whole; the next run goes on from there.")
+        raise typer.Exit(130) from None
 
 
 @contextmanager

@@ -1,0 +1,62 @@
+"""What to look at before a study: contact sheet, and for single stimuli poster, curves and a comparison."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from stimuli.contact_sheet import contact_sheet
+from stimuli.curves import draw_curves
+from stimuli.errors import InputError
+from stimuli.manifest import Manifest
+from stimuli.motion import generate
+from stimuli.robots.model import Robot
+from stimuli.side_by_side import poster, side_by_side
+from stimuli.spec import StimulusSpec
+
+
+def draw_preview(
+    manifest: Manifest,
+    folder: Path,
+    out: Path,
+    *,
+    stimuli: Sequence[str] = (),
+    robots: Mapping[str, Robot],
+) -> list[Path]:
+    """Draw a contact sheet and write the descriptors of all clips; of those named, also the rest.
+
+    That is a poster and the joints' curves of each, and, of two or more, a clip of them side by side.
+    """
+    for id_ in stimuli:
+        if id_ not in manifest.clips:
+            near = difflib.get_close_matches(id_, manifest.clips, 1)
+            hint = f" Did you mean {near[0]}?" if near else f" Known: {', '.join(manifest.clips)}."
+            raise InputError(f"{folder}: there is no clip of {id_!r}.{hint}")
+    if not manifest.clips:
+        raise InputError(f"{folder}: there are no clips yet. `study render` makes them.")
+    out.mkdir(parents=True, exist_ok=True)
+    name = "-".join(stimuli) or "contact_sheet"
+    drawn = [
+        contact_sheet(manifest, folder, out / f"{name}.png", stimuli=stimuli or None),
+        write_descriptors(manifest, out / "descriptors.csv"),
+    ]
+    for id_ in stimuli:
+        drawn.append(poster(manifest, folder, id_, out / f"{id_}.poster.png"))
+        spec = StimulusSpec.model_validate(manifest.clips[id_].spec)
+        robot = robots[spec.robot]
+        drawn.append(draw_curves(generate(spec, robot), robot, out / f"{id_}.curves.png", title=id_))
+    if len(stimuli) > 1:
+        drawn.append(side_by_side(manifest, folder, stimuli, out / f"{name}.mp4"))
+    return drawn
+
+
+def write_descriptors(manifest: Manifest, out: Path) -> Path:
+    """Write what describes each motion as a table, a row for each stimulus."""
+    columns = list(dict.fromkeys(name for clip in manifest.clips.values() for name in clip.descriptors))
+    with out.open("w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, ["stimulus", *columns])
+        table.writeheader()
+        table.writerows({"stimulus": id_, **clip.descriptors} for id_, clip in manifest.clips.items())
+    return out

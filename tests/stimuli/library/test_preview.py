@@ -1,0 +1,86 @@
+"""What is looked at before a study shows every clip, joint and variant asked for."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import av
+import numpy as np
+import pytest
+from PIL import Image
+
+from stimuli.curves import curves
+from stimuli.errors import InputError
+from stimuli.library import render_missing
+from stimuli.manifest import Manifest
+from stimuli.motion import generate
+from stimuli.preview import draw_preview
+from stimuli.robots.model import Robot
+from stimuli.spec import StimulusSpec
+
+
+@pytest.fixture(scope="module")
+def clips(
+    study: list[StimulusSpec], pepper: Robot, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Manifest, Path]:
+    folder = tmp_path_factory.mktemp("clips")
+    return render_missing(study, {"pepper": pepper}, folder, workers=1), folder
+
+
+def test_a_preview_of_all_is_a_contact_sheet_and_a_table(
+    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+) -> None:
+    sheet, table = draw_preview(*clips, tmp_path, robots={"pepper": pepper})
+    with Image.open(sheet) as picture:
+        assert np.asarray(picture).std() > 10
+    rows = list(csv.DictReader(table.read_text().splitlines()))
+    assert [row["stimulus"] for row in rows] == ["neutral", "slow", "same"]
+    assert float(rows[1]["duration_s"]) > float(rows[0]["duration_s"])
+
+
+def test_stimuli_named_get_poster_curves_and_a_comparison(
+    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+) -> None:
+    drawn = draw_preview(*clips, tmp_path, stimuli=["neutral", "slow"], robots={"pepper": pepper})
+    assert sorted(path.name for path in drawn) == sorted(
+        [
+            "neutral-slow.png",
+            "descriptors.csv",
+            *(f"{id_}.{kind}.png" for id_ in ("neutral", "slow") for kind in ("poster", "curves")),
+            "neutral-slow.mp4",
+        ]
+    )
+    with Image.open(tmp_path / "slow.poster.png") as poster:
+        assert poster.size == (64, 64)
+    with av.open(str(tmp_path / "neutral-slow.mp4")) as film:
+        frames = [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
+    assert len(frames) == clips[0].clips["slow"].frames
+    assert frames[0].shape == (64 + 36, 2 * 64, 3)
+    left, right = (
+        np.abs(frames[-1][40:, half].astype(int) - frames[-4][40:, half]).max()
+        for half in (slice(0, 64), slice(64, 128))
+    )
+    assert left < right  # the quick one has ended and holds its last frame
+
+
+def test_the_curves_show_the_joints_that_move_demonstrated_and_made(
+    study: list[StimulusSpec], pepper: Robot
+) -> None:
+    motion = generate(study[1], pepper)
+    figure = curves(motion, pepper, title="slow")
+    panels = [panel for panel in figure.axes if panel.get_visible()]
+    assert [panel.get_title(loc="left") for panel in panels] == ["HeadPitch (°)"]
+    demonstrated, made = panels[0].get_lines()[:2]
+    assert (demonstrated.get_linestyle(), made.get_linestyle()) == ("--", "-")
+    np.testing.assert_allclose(made.get_ydata(), np.degrees(motion.trajectory.joint("HeadPitch")))
+    assert made.get_xdata()[-1] > demonstrated.get_xdata()[-1]
+
+
+def test_a_stimulus_that_is_not_there_is_named_with_the_nearest(
+    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=r"there is no clip of 'slwo'\. Did you mean slow\?"):
+        draw_preview(*clips, tmp_path, stimuli=["slwo"], robots={"pepper": pepper})
+    with pytest.raises(InputError, match="there are no clips yet"):
+        draw_preview(Manifest(), tmp_path, tmp_path, robots={})
