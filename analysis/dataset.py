@@ -28,6 +28,7 @@ from analysis.rows import (
 )
 from analysis.wide import answer_columns, read_wide, unknown_names
 from study.participants import Kind
+from study.questions.attention import Attention
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -47,6 +48,10 @@ class Answers:
     items: tuple[str, ...]
     options: tuple[str, ...]
     codes: Codes  # (participants, stimuli, items) index of the option, −1 where there is no answer
+    expected: str | None = None  # of an attention check: the answer asked for
+    shown: int | None = None  # stimuli that one participant sees, where those are not all
+    optional: bool = False  # whether one may finish without: by choice, or spared by earlier answers
+    series: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # scales, scored by the mean of items
 
     @property
     def scale(self) -> tuple[float, float] | None:
@@ -67,6 +72,16 @@ class Answers:
         numbers = [float(candidate == option) for candidate in self.options]
         return np.array([*numbers, np.nan])[self.codes]
 
+    def on(self, item: str, outcome: str | None = None) -> FloatArray:
+        """Answers on an item as numbers, or whether they are `outcome`; of a series the mean of all its items.
+
+        (participants, stimuli), NaN where one is missing.
+        """
+        values = self.ratings if outcome is None else self.chose(outcome)
+        places = [self.items.index(one) for one in self.series.get(item, (item,))]
+        mean: FloatArray = values[:, :, places].mean(axis=2)
+        return mean
+
     def of_participants(self, kept: NDArray[np.bool_]) -> Answers:
         """The same question with fewer participants."""
         names = tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep)
@@ -81,16 +96,24 @@ class Responses:
     sha256: str
     participants: tuple[str, ...]  # sorted
     questions: tuple[Answers, ...]
+    checks: tuple[Answers, ...] = ()  # of attention
     trials: Mapping[str, FloatArray] = field(
         default_factory=dict
     )  # part → (participants, stimuli), when seen
     median_rt_s: FloatArray | None = None  # (participants,) time per answer
-    kind: Kind = "participant"  # simulated and test answers are no data, and every output says so
+    kind: Kind = "participant"
+
+    @property
+    def note(self) -> str:
+        """What every output says of answers that are no data; empty where they are."""
+        return {"participant": "", "test": "Test answers, no data", "simulated": "Simulated answers, no data"}[
+            self.kind
+        ]
 
     def answers(self, part: str, item: str | None = None) -> Answers:
         """The question of a part with that item; its first question if none is named."""
         for question in self.questions:
-            if question.part == part and (item is None or item in question.items):
+            if question.part == part and (item is None or item in question.items or item in question.series):
                 return question
         raise ResponsesError(f"part {part!r} has no question with options{f' on {item!r}' if item else ''}")
 
@@ -100,6 +123,7 @@ class Responses:
             self,
             participants=tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep),
             questions=tuple(question.of_participants(kept) for question in self.questions),
+            checks=tuple(check.of_participants(kept) for check in self.checks),
             trials={part: trials[kept] for part, trials in self.trials.items()},
             median_rt_s=None if self.median_rt_s is None else self.median_rt_s[kept],
         )
@@ -123,6 +147,10 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
             items=tuple(question.items),
             options=tuple(question.values),
             codes=np.empty((0, 0, 0), dtype=np.int8),
+            expected=question.expected if isinstance(question, Attention) else None,
+            shown=part.shown,
+            optional=question.optional or bool(part.only_if),
+            series=part.series,
         )
         for part in protocol.parts.values()
         for question in part.questions
@@ -131,13 +159,14 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     which = _question_of_each_row(rows, protocol, empty)
     nobody = rows.codes("participant", {"": 0}) == 0
     rows.refuse_if((which >= 0) & nobody, "has no participant")
-    questions = tuple(_fill(question, rows, np.flatnonzero(which == q)) for q, question in enumerate(empty))
+    filled = [_fill(question, rows, np.flatnonzero(which == q)) for q, question in enumerate(empty)]
     participants = empty[0].participants if empty else ()
     return Responses(
         path=path,
         sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
         participants=participants,
-        questions=questions,
+        questions=tuple(question for question in filled if question.expected is None),
+        checks=tuple(question for question in filled if question.expected is not None),
         trials=_trials(rows, protocol, participants),
         median_rt_s=_median_rt_s(rows, which >= 0, participants),
         kind=_kind(rows),

@@ -46,6 +46,12 @@ def apply_exclusions(responses: Responses, rules: Exclusions) -> tuple[Responses
         else:
             quick = np.nan_to_num(responses.median_rt_s, nan=np.inf) < rules.faster_than
             in_force.append((f"faster than {rules.faster_than:g} s per answer (median)", quick))
+    if rules.failed_attention is not None:
+        rule = f"failed {rules.failed_attention} or more attention checks"
+        if responses.checks:
+            in_force.append((rule, _failed_checks(responses) >= rules.failed_attention))
+        else:
+            in_force.append((f"{rule} (not applied: the study has none)", _nobody(responses)))
     if rules.straight_lining:
         in_force.append(("same answer throughout a part", _straight_lining(responses)))
     left_out: dict[str, str] = {}
@@ -67,11 +73,23 @@ def _nobody(responses: Responses) -> NDArray[np.bool_]:
 
 
 def _incomplete(responses: Responses) -> NDArray[np.bool_]:
-    """Participants with an unanswered item, (participants,)."""
+    """Participants who left an item of a stimulus they were to see unanswered, (participants,)."""
     unfinished = _nobody(responses)
     for question in responses.questions:
-        unfinished |= (question.codes < 0).any(axis=(1, 2))
+        there = question.codes >= 0
+        shown = len(question.stimuli) if question.shown is None else question.shown
+        spared = question.optional & ~there.any(axis=(1, 2))
+        unfinished |= (there.all(axis=2).sum(axis=1) < shown) & ~spared
     return unfinished
+
+
+def _failed_checks(responses: Responses) -> NDArray[np.int64]:
+    """How many attention checks each participant answered otherwise than asked, (participants,)."""
+    failed = np.zeros(len(responses.participants), dtype=np.int64)
+    for check in responses.checks:
+        wrong = (check.codes >= 0) & (check.chose(str(check.expected)) != 1)
+        failed += wrong.sum(axis=(1, 2))
+    return failed
 
 
 def _straight_lining(responses: Responses) -> NDArray[np.bool_]:

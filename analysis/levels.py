@@ -1,4 +1,4 @@
-"""Do two levels of the same principle look different: high against low."""
+"""Do two levels of the same principle, or two modulations, look different: high against low."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Comparison:
 
     levels: tuple[str, str]  # the first is expected to be higher
     pairs: Mapping[str, tuple[str, str]]  # name → stimuli of the two levels
-    item: str
+    item: str  # or a series of items, scored by their mean
     outcome: str | None  # the answer that counts as 1; None where answers are numbers
     other: str | None = None  # the opposite answer
 
@@ -76,9 +76,8 @@ def _samples(
     answers: Answers, comparison: Comparison, stimuli: tuple[str, str]
 ) -> tuple[FloatArray, FloatArray]:
     """The answers to both stimuli as numbers, aligned by participant, NaN where missing."""
-    values = answers.ratings if comparison.outcome is None else answers.chose(comparison.outcome)
-    item = answers.items.index(comparison.item)
-    first, second = (values[:, answers.stimuli.index(stimulus), item] for stimulus in stimuli)
+    values = answers.on(comparison.item, comparison.outcome)
+    first, second = (values[:, answers.stimuli.index(stimulus)] for stimulus in stimuli)
     return first, second
 
 

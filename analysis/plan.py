@@ -65,11 +65,16 @@ class Findings:
 def carry_out(responses: Responses, protocol: Protocol) -> Findings:
     """Leave out whom the protocol says, and test each of its hypotheses on the rest."""
     kept, flow = apply_exclusions(responses, protocol.participants.exclude)
-    outcomes = {
-        name: decide(name, hypothesis, kept, protocol)
+    outcomes = decide_all(kept, protocol)
+    return Findings(responses=kept, flow=flow, outcomes=outcomes, alpha=protocol.analysis.alpha)
+
+
+def decide_all(responses: Responses, protocol: Protocol) -> dict[str, Outcome]:
+    """Test every hypothesis of the protocol, whoever the responses are from."""
+    return {
+        name: decide(name, hypothesis, responses, protocol)
         for name, hypothesis in protocol.analysis.hypotheses.items()
     }
-    return Findings(responses=kept, flow=flow, outcomes=outcomes, alpha=protocol.analysis.alpha)
 
 
 def decide(name: str, hypothesis: Hypothesis, responses: Responses, protocol: Protocol) -> Outcome:
@@ -128,22 +133,11 @@ def _levels(
         )
     if hypothesis.outcome is None and answers.scale is None:
         raise PlanError(f"{name}: name the outcome that counts as 1; one of {', '.join(answers.options)}")
-    first, second = hypothesis.compare
-    by_level = {
-        level: {
-            stimulus.removesuffix(f"_{level}"): stimulus
-            for stimulus in answers.stimuli
-            if protocol.stimuli[stimulus].level == level
-        }
-        for level in hypothesis.compare
-    }
-    pairs = {
-        principle: (stimulus, by_level[second][principle])
-        for principle, stimulus in by_level[first].items()
-        if principle in by_level[second]
-    }
+    pairs = _pairs(hypothesis, answers, protocol)
     if not pairs:
-        raise PlanError(f"{name}: part {answers.part} shows no stimulus at both levels {first} and {second}")
+        raise PlanError(
+            f"{name}: part {answers.part} shows nothing both as {' and as '.join(hypothesis.compare)}"
+        )
     comparison = Comparison(
         levels=hypothesis.compare,
         pairs=pairs,
@@ -160,3 +154,26 @@ def _levels(
         comparison=comparison,
         results=comparisons(answers, comparison, judging),
     )
+
+
+def _pairs(hypothesis: Hypothesis, answers: Answers, protocol: Protocol) -> dict[str, tuple[str, str]]:
+    """What is compared with what: each principle at both levels, or each gesture under both modulations.
+
+    Principles bear their own name; of modulations the pair is named after the item or series judged.
+    """
+    assert hypothesis.compare is not None
+    seen = [protocol.stimuli[stimulus] for stimulus in answers.stimuli]
+    several = len({stimulus.gesture for stimulus in seen}) > 1
+
+    def of(condition: str) -> dict[str, str]:
+        named = {}
+        for stimulus in seen:
+            if stimulus.level == condition:
+                named[stimulus.id.removesuffix(f"_{condition}")] = stimulus.id
+            elif stimulus.name == condition:
+                item = hypothesis.item or answers.items[0]
+                named[f"{item} {stimulus.gesture}" if several else item] = stimulus.id
+        return named
+
+    first, second = map(of, hypothesis.compare)
+    return {name: (stimulus, second[name]) for name, stimulus in first.items() if name in second}

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from analysis.chance import DEFINITIONS
+from analysis.further import SEED, Further
 from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Targets
 from analysis.statistics.samples import Moments
@@ -40,12 +41,14 @@ class Results:
 
     findings: Findings
     provenance: Provenance
+    further: Further
 
     def as_json(self) -> Json:
         """The contents of results.json."""
         flow = self.findings.flow
         content: Json = {
             "study": self.provenance.study,
+            "data": self.findings.responses.kind,
             "protocol_sha256": self.provenance.protocol_sha256,
             "responses_sha256": self.provenance.responses_sha256,
             "software": dict(self.provenance.software),
@@ -69,7 +72,8 @@ class Results:
                 content[outcome.part] = {s: _recognised(one, outcome) for s, one in outcome.results.items()}
                 content[f"{outcome.part}_means"] = outcome.means
             elif outcome.mirrors is None:
-                content[outcome.part] = {p: _compared(one, outcome) for p, one in outcome.results.items()}
+                compared = {name: _compared(one, outcome) for name, one in outcome.results.items()}
+                content[outcome.part] = content.get(outcome.part, {}) | compared
         for outcome in self.findings.outcomes.values():
             if isinstance(outcome, Levels) and outcome.mirrors:
                 for principle, one in outcome.results.items():
@@ -77,8 +81,31 @@ class Results:
                     content[outcome.part].setdefault(principle, {}).setdefault("mirrors", {})[
                         outcome.hypothesis
                     ] = mirrored
+        content["further"] = self._further()
         strictly: Json = strict(content)
         return strictly
+
+    def _further(self) -> Json:
+        """Further checks, by part; tests without exclusions only where somebody was left out."""
+        further, outcomes = self.further, self.findings.outcomes
+        content: Json = {"scales": further.scales, "bootstrap_seed": SEED}
+        for name in (*further.targets, *further.levels):
+            part: Json = content.setdefault(outcomes[name].part, {})
+            part["tests"] = further.targets.get(name) or further.levels.get(name)
+            for key, found in (("agreement", further.agreement), ("order", further.order)):
+                if name in found:
+                    part[key] = found[name]
+            if name in further.confusions:
+                stimuli, items = outcomes[name].answers.stimuli, outcomes[name].answers.items
+                part["highest_rated"] = {
+                    ties: {s: dict(zip(items, row, strict=True)) for s, row in zip(stimuli, counts, strict=True)}
+                    for ties, counts in further.confusions[name].items()
+                }
+        content["before_exclusions"] = {
+            name: {key: one.verdict for key, one in outcome.results.items()}
+            for name, outcome in further.before.items()
+        }
+        return content
 
     def write(self, path: Path) -> None:
         """Write results.json."""

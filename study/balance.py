@@ -31,7 +31,8 @@ class Balance:
 
     def __str__(self) -> str:
         positions, follows = _range(*self.position_range), _range(*self.follows_range)
-        return f"in each position {positions}, after each other {follows}"
+        follow = f", after each other {follows}" if any(self.follows.values()) else ""
+        return f"in each position {positions}{follow}"
 
     @property
     def follows_range(self) -> tuple[int, int]:

@@ -92,21 +92,24 @@ def _critical(m: int, alpha: float) -> int:
 def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
     n = protocol.participants.planned
     stimuli = protocol.stimuli_of(hypothesis.part)
-    items = {item for question in protocol.written_parts[hypothesis.part].ask for item in question.items}
+    part = protocol.written_parts[hypothesis.part]
+    items = {item for question in part.ask for item in question.items}
     if hypothesis.compare is None:
         tests = sum(stimulus.name in items for stimulus in stimuli)
     else:
-        tests = sum(stimulus.level == hypothesis.compare[0] for stimulus in stimuli)
+        tests = sum((stimulus.level or stimulus.name) == hypothesis.compare[0] for stimulus in stimuli)
     corrected = hypothesis.correction in {"holm", "bonferroni"}
     alpha = protocol.analysis.alpha / (tests if corrected else 1)
     two_sided = hypothesis.alternative == "two-sided"
     effect: Effect = "d" if hypothesis.outcome is None else "share"
 
+    split = len(stimuli) // part.order.shown(stimuli)  # each participant is in one of so many groups
+
     def at(participants: int, size: float) -> float:
         if effect == "share":
             return mcnemar_power(participants, size, 1 - size, alpha, two_sided=two_sided)
         groups = 2 if hypothesis.test == "independent t" else 1
-        return t_power(participants, size, alpha, two_sided=two_sided, groups=groups)
+        return t_power(participants // split, size, alpha, two_sided=two_sided, groups=groups)
 
     largest, assumed = (5.0, (0.2, 0.5, 0.8)) if effect == "d" else (1.0, (0.6, 0.7, 0.8))
     least = 0.0 if effect == "d" else 0.5
@@ -116,7 +119,7 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
         tests=tests,
         alpha=alpha,
         effect=effect,
-        smallest=smallest_effect(lambda size: at(n, size), least, largest) if n > 1 else None,
+        smallest=smallest_effect(lambda size: at(n, size), least, largest) if n // split > 1 else None,
         needed={size: participants_needed(partial(at, size=size)) for size in assumed},
     )
 

@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from stimuli.principles import Modulation
 from study.questions import Asked, Question
+from study.questions.scale import Scale
 from study.text import Text
 from study.written import Written, wrong, wrong_at
 
@@ -190,6 +191,14 @@ class Practice(Written):
     ask: Name  # the part whose questions are asked
 
 
+def series_of(questions: Sequence[Question]) -> dict[str, tuple[str, ...]]:
+    """Series by name, each with its items, over these questions."""
+    scored = [
+        pair for question in questions if isinstance(question, Scale) for pair in question.series.items()
+    ]
+    return {name: tuple(item for item, of in scored if of == name) for _, name in scored}
+
+
 @dataclass(frozen=True)
 class Part:
     """A part with everything looked up."""
@@ -202,6 +211,12 @@ class Part:
     order: Order
     references: Mapping[str, str] = field(default_factory=dict)
     only_if: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    shown: int | None = None  # how many of the stimuli one participant sees, where those are not all
+
+    @property
+    def series(self) -> Mapping[str, tuple[str, ...]]:
+        """The scales of its questions, each with the items over which its score is the mean."""
+        return series_of(self.questions)
 
     def reference_of(self, stimulus: str) -> str | None:
         """The clip shown before this one."""

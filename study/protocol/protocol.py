@@ -194,6 +194,7 @@ class Protocol(Written):
             order=written.order,
             references=references,
             only_if=written.only_if,
+            shown=shown if (shown := written.order.shown(judged)) < len(judged) else None,
         )
 
     @cached_property

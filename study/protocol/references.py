@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
-from study.protocol.parts import NEUTRAL, PRACTICE
+from study.protocol.parts import NEUTRAL, PRACTICE, series_of
 from study.protocol.texts import files_named_in
 from study.text import Text
 from study.written import Location, nearest
@@ -135,14 +135,16 @@ def _hypotheses(protocol: Protocol) -> Iterator[Contradiction]:
         items = [item for question in part.ask for item in question.items]
         values = [value for question in part.ask for value in question.values or ()]
         stimuli = protocol.stimuli_of(hypothesis.part)
-        levels = list(dict.fromkeys(stimulus.level for stimulus in stimuli if stimulus.level))
+        conditions = dict.fromkeys(name for s in stimuli if (name := s.level or s.name))
+        scored = [*items, *series_of(part.ask)]
         if hypothesis.item is not None:
-            yield from _unknown((*here, "item"), hypothesis.item, items, f"item of {hypothesis.part}")
+            yield from _unknown((*here, "item"), hypothesis.item, scored, f"item of {hypothesis.part}")
         if hypothesis.outcome is not None:
             yield from _unknown(
                 (*here, "outcome"), hypothesis.outcome, values, f"answer in {hypothesis.part}"
             )
         for at, level in enumerate(hypothesis.compare or ()):
-            yield from _unknown((*here, "compare", at), level, levels, f"level in {hypothesis.part}")
+            what = f"level or modulation in {hypothesis.part}"
+            yield from _unknown((*here, "compare", at), level, conditions, what)
         if hypothesis.of == "target" and not any(stimulus.name in items for stimulus in stimuli):
             yield (*here, "of"), f"needs items of {hypothesis.part} that bear the names of its modulations"

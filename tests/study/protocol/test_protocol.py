@@ -85,7 +85,7 @@ def test_names_that_lead_nowhere_are_said_with_the_nearest_that_would(load, writ
     ("field", "value", "message"),
     [
         ("part", "intensty", "'intensty' is no part; did you mean intensity?"),
-        ("compare", ["hi", "low"], "'hi' is no level in intensity; did you mean high?"),
+        ("compare", ["hi", "low"], "'hi' is no level or modulation in intensity; did you mean high?"),
         ("outcome", "hihger", "'hihger' is no answer in intensity; did you mean higher?"),
         ("mirrors", "H3.2", "'H3.2' is no other hypothesis; did you mean H2.2?"),
         ("item", "strength", "'strength' is no item of intensity; known: intensity"),
