@@ -6,6 +6,7 @@ import csv
 import io
 import json
 from collections.abc import Iterator
+from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from study.responses import Response
 from study.sessions import Step, steps
 from study.storage import Store
 
+SECRET = {"completion_code"}  # whoever knows it could withdraw the participant
 COLUMNS = {
     "participant": "Random name; says nothing about order or person.",
     "part": "The study's part, or 'demographics'.",
@@ -82,6 +84,27 @@ def responses_csv(
     for row in rows(store, protocol, kind=kind, clips=clips):
         writer.writerow(row | {"response": guarded(row["response"])})
     return file.getvalue()
+
+
+def responses_json(store: Store, *, kind: Kind = "participant") -> str:
+    """Everything about every session: its plan, and each answered page with what happened to its clips."""
+    sessions = [
+        {
+            **{name: value for name, value in vars(session).items() if name not in SECRET},
+            "plan": asdict(session.plan),
+            "pages": [
+                {
+                    **response.submission.model_dump(mode="json"),
+                    "shown_at": response.shown_at,
+                    "answered_at": response.answered_at,
+                }
+                for response in responses
+            ],
+        }
+        for session, responses in store.responses(kind)
+    ]
+    content = {"kind": kind, "is_data": kind == "participant", "sessions": sessions}
+    return json.dumps(content, indent=1, ensure_ascii=False, default=_moment)
 
 
 def guarded(response: str) -> str:

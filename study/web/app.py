@@ -28,6 +28,7 @@ def create_app(site: Site) -> FastAPI:
     )
     app.state.site = site
     app.state.limits = Limits()
+    app.state.is_stopping = lambda: False  # the server knows better
     app.include_router(entry.router)
     app.include_router(participant.router)
     app.include_router(experimenter.router)

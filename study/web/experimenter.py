@@ -1,33 +1,42 @@
-"""The experimenter's page: who is where, links for participants, and the data, behind a password."""
+"""The experimenter's pages, behind a password: the running study, links for participants, and the data."""
 
 from __future__ import annotations
 
+import asyncio
 import json
+import tempfile
 import threading
+from collections.abc import AsyncIterator
+from datetime import datetime
+from pathlib import Path
 from typing import Annotated
 
+import segno
 from babel.dates import format_datetime
 from fastapi import APIRouter, Form, Request
-from fastapi.responses import RedirectResponse, Response
+from fastapi.responses import RedirectResponse, Response, StreamingResponse
+from markupsafe import Markup
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
-from study.export import codebook, responses_csv
-from study.participants import Contact, new_participant, new_token
-from study.sessions import next_step
+from study.export import codebook, responses_csv, responses_json
+from study.participants import Contact, new_participant, new_personal_code, token_of_code
+from study.storage.backups import copy_database
+from study.storage.store import Phase
 from study.web.credentials import LOGIN_LASTS
 from study.web.language import load_language
-from study.web.pages import render
-from study.web.participant import steps_of
-from study.web.site import Site, hashes, site_of
-from study.web.visitor import language_of
+from study.web.limits import count_wrong_guess, require_guesses_left
+from study.web.overview import may_see_report, overview
+from study.web.pages import fragment, render
+from study.web.site import hashes, site_of
+from study.web.visitor import language_of, to
 
 COOKIE = "experimenter"
 MOST_LINKS = 200  # made at once
+LOOK_AGAIN_S = 2.0
 
 router = APIRouter(prefix="/experimenter")
-_one_try_at_a_time = (
-    threading.Lock()
-)  # passwords are slow to check on purpose; guessing in parallel gains nothing
+_one_try_at_a_time = threading.Lock()  # passwords are slow to check; guessing in parallel gains nothing
 
 
 def cookie_of(request: Request) -> str | None:
@@ -46,25 +55,30 @@ def require_login(request: Request, form_token: str | None = None) -> str:
     return cookie
 
 
+# In and out
+
+
 @router.get("", name="experimenter")
-def overview(request: Request) -> Response:
+def experimenter(request: Request) -> Response:
     """The page itself, or the way in."""
     if cookie_of(request) is None:
         return render(request, "login.html", language=language_of(request), fault=None)
-    return _overview(request, links=[])
+    return _page(request, "experimenter.html")
 
 
 @router.post("/login", name="login")
 def login(request: Request, password: Annotated[str, Form(max_length=200)]) -> Response:
     """Give a cookie for the password."""
     site, language = site_of(request), language_of(request)
+    require_guesses_left(request)
     with _one_try_at_a_time:
         right = site.credentials.is_password(password)
     if not right:
+        count_wrong_guess(request)
         say = load_language(language).text
         fault = say("This is not the password.")
         return render(request, "login.html", language=language, fault=fault, status=401)
-    answer = RedirectResponse(request.app.url_path_for("experimenter"), status_code=303)
+    answer = to(request, "experimenter")
     answer.set_cookie(
         COOKIE,
         site.credentials.cookie(site.clock()),
@@ -81,9 +95,40 @@ def login(request: Request, password: Annotated[str, Form(max_length=200)]) -> R
 def logout(request: Request, form_token: Annotated[str, Form()]) -> Response:
     """Take the cookie back."""
     require_login(request, form_token)
-    answer = RedirectResponse(request.app.url_path_for("experimenter"), status_code=303)
+    answer: RedirectResponse = to(request, "experimenter")
     answer.delete_cookie(COOKIE, path="/experimenter")
     return answer
+
+
+# The running study
+
+
+@router.get("/live", name="live")
+async def live(request: Request) -> Response:
+    """The study as it runs, by server-sent events: the page's live part, whenever it has changed."""
+    require_login(request)
+
+    async def changes() -> AsyncIterator[str]:
+        shown = ""
+        while not (request.app.state.is_stopping() or await request.is_disconnected()):
+            now = await run_in_threadpool(_live_part, request)
+            if now != shown:
+                yield "".join(f"data: {line}\n" for line in now.splitlines()) + "\n"
+                shown = now
+            await asyncio.sleep(LOOK_AGAIN_S)
+
+    return StreamingResponse(changes(), media_type="text/event-stream")
+
+
+@router.post("/phase", name="phase")
+def enter_phase(
+    request: Request, form_token: Annotated[str, Form()], phase: Annotated[Phase, Form()]
+) -> Response:
+    """Pause, resume or close the study."""
+    require_login(request, form_token)
+    site = site_of(request)
+    site.store.enter_phase(phase, now=site.clock())
+    return to(request, "experimenter")
 
 
 @router.post("/links", name="links")
@@ -94,17 +139,29 @@ def make_links(
     note: Annotated[str, Form(max_length=100)] = "",
     test: Annotated[bool, Form()] = False,
 ) -> Response:
-    """Invite participants. Their links are shown this once: only hashes of them are kept."""
+    """Invite participants: a sheet with links, codes and QR codes, shown this once. Only hashes are kept."""
     require_login(request, form_token)
     site = site_of(request)
-    links = []
+    invitations = []
     for _ in range(count):
-        token = new_token()
+        code = new_personal_code()
+        token = token_of_code(code)
         kind = "test" if test else site.kind
         participant = new_participant(token, kind=kind, created_at=site.clock())
         site.store.add_participant(participant, Contact(note=note) if note else None)
-        links.append(str(request.url_for("link", token=token)))
-    return _overview(request, links=links)
+        link = str(request.url_for("link", token=token))
+        invitations.append({"name": participant.name, "code": code, "link": link, "picture": _qr(link)})
+    return render(
+        request,
+        "invitations.html",
+        language=language_of(request),
+        invitations=invitations,
+        note=note,
+        door_url=str(request.url_for("entry")),
+    )
+
+
+# The data
 
 
 @router.get("/responses.csv", name="responses")
@@ -112,11 +169,8 @@ def download_responses(request: Request) -> Response:
     """All answers as a table."""
     require_login(request)
     site = site_of(request)
-    return _download(
-        responses_csv(site.store, site.protocol, kind=site.kind, clips=hashes(site.clips)),
-        "text/csv",
-        "responses.csv",
-    )
+    table = responses_csv(site.store, site.protocol, kind=site.kind, clips=hashes(site.clips))
+    return _download(table, "text/csv; charset=utf-8", "responses.csv")
 
 
 @router.get("/responses.codebook.json", name="codebook")
@@ -128,69 +182,75 @@ def download_codebook(request: Request) -> Response:
     return _download(content, "application/json", "responses.codebook.json")
 
 
-def _download(content: str, kind: str, name: str) -> Response:
-    disposition = {"Content-Disposition": f'attachment; filename="{name}"'}
-    return Response(content, media_type=f"{kind}; charset=utf-8", headers=disposition)
+@router.get("/responses.json", name="responses_json")
+def download_json(request: Request) -> Response:
+    """Everything about every session, with all that happened to its videos."""
+    require_login(request)
+    site = site_of(request)
+    return _download(responses_json(site.store, kind=site.kind), "application/json", "responses.json")
 
 
-def _overview(request: Request, *, links: list[str]) -> Response:
-    site, language = site_of(request), language_of(request)
-    rows = _rows(site)
-    counted = [row for row in rows if row["kind"] == site.kind]
+@router.get("/study.db", name="backup")
+def download_backup(request: Request) -> Response:
+    """A copy of the whole database; it holds the participants' contacts too."""
+    require_login(request)
+    database = site_of(request).store.file
+    if database is None:
+        raise HTTPException(404)
+    with tempfile.TemporaryDirectory() as scratch:
+        copy = Path(scratch) / "study.db"
+        copy_database(database, copy)
+        return _download(copy.read_bytes(), "application/vnd.sqlite3", "study.db")
+
+
+@router.get("/report.html", name="report")
+def download_report(request: Request) -> Response:
+    """The report of the data so far, unless it is sealed."""
+    require_login(request)
+    site = site_of(request)
+    if site.analyse is None:
+        raise HTTPException(404)
+    if not may_see_report(site, overview(site)):
+        raise HTTPException(403)
+    with tempfile.TemporaryDirectory() as scratch:
+        table, out = Path(scratch) / "responses.csv", Path(scratch) / "report"
+        content = responses_csv(site.store, site.protocol, kind=site.kind, clips=hashes(site.clips))
+        table.write_text(content, encoding="utf-8", newline="")
+        site.analyse(table, out)
+        return _download((out / "report.html").read_bytes(), "text/html; charset=utf-8", "report.html")
+
+
+def _download(content: str | bytes, kind: str, name: str) -> Response:
+    return Response(
+        content, media_type=kind, headers={"Content-Disposition": f'attachment; filename="{name}"'}
+    )
+
+
+def _qr(link: str) -> Markup:
+    return Markup(segno.make(link, error="m", micro=False).svg_inline(scale=3, border=2, omitsize=True))
+
+
+def _page(request: Request, template: str) -> Response:
+    site = site_of(request)
     return render(
         request,
-        "experimenter.html",
-        language=language,
-        rows=rows,
-        counts={state: sum(row["state"] == state for row in counted) for state in STATES},
-        planned=site.protocol.participants.planned,
-        links=links,
+        template,
+        language=language_of(request),
+        live=Markup(_live_part(request)),
+        phase=site.store.phase,
         most_links=MOST_LINKS,
-        moment=lambda when: format_datetime(
-            when.astimezone(), "d MMM, HH:mm", locale=language.replace("-", "_")
-        ),
+        has_backup=site.store.file is not None,
+        has_report=site.analyse is not None,
+        report_sealed=not may_see_report(site, overview(site)),
+        kiosk_key=site.credentials.kiosk_key,
         form_token=site.credentials.form_token(require_login(request)),
     )
 
 
-STATES = ("invited", "active", "stalled", "completed")
+def _live_part(request: Request) -> str:
+    language = language_of(request)
 
+    def moment(when: datetime) -> str:
+        return format_datetime(when.astimezone(), "d MMM, HH:mm", locale=language.replace("-", "_"))
 
-def _rows(site: Site) -> list[dict[str, object]]:
-    now = site.clock()
-    failures = site.store.event_counts("video_failed")
-    rows = []
-    for person in site.store.progress():
-        session = person.session
-        pages = steps_of(site, session) if session else ()
-        step = next_step(pages, person.answered)
-        ended_at = session and (session.completed_at or person.active_at)
-        quiet_s = (now - person.active_at).total_seconds() if person.active_at else 0
-        stalled = quiet_s > site.protocol.participants.abandoned_after
-        state = (
-            "invited"
-            if session is None
-            else "completed"
-            if step is None
-            else "stalled"
-            if stalled
-            else "active"
-        )
-        rows.append(
-            {
-                "name": person.participant.name,
-                "kind": person.participant.kind,
-                "note": person.contact.note,
-                "state": state,
-                "place": len(person.answered),
-                "pages": len(pages),
-                "step": step.key if step else "",
-                "slot": session.plan.slot + 1 if session else None,
-                "begun_at": session.begun_at if session else None,
-                "minutes": (ended_at - session.begun_at).total_seconds() / 60
-                if session and ended_at
-                else None,
-                "failed_videos": failures.get(person.participant.name, 0),
-            }
-        )
-    return rows
+    return fragment("overview.html", language=language, seen=overview(site_of(request)), moment=moment)

@@ -66,6 +66,12 @@ def ask(
     )
 
 
+def fragment(template: str, *, language: str, **values: Any) -> str:
+    """A part of a page."""
+    spoken = load_language(language)
+    return _environment.get_template(template).render({"_": spoken.text, "language": language} | values)
+
+
 def render(
     request: Request, template: str, *, language: str, status: int = 200, **values: Any
 ) -> HTMLResponse:

@@ -6,7 +6,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -18,16 +18,18 @@ from fastapi import FastAPI
 from stimuli.errors import InputError
 from study.participants import Kind
 from study.protocol import amendments
-from study.storage import open_store
+from study.storage import Store, open_store
+from study.storage.backups import BackupTimer, back_up
 from study.web.app import create_app
 from study.web.credentials import open_credentials
-from study.web.site import Door, Site, clips_of
+from study.web.site import Door, Site, clips_of, utc_now
 
 if TYPE_CHECKING:
     from stimuli.manifest import Manifest
     from study.protocol import Protocol
 
 SOFTWARE = f"expressive-motion-study {version('expressive-motion-study')}"
+BACKUP_EVERY_S = 30 * 60
 GRACE_S = 5  # for requests under way when the server is told to stop
 
 
@@ -52,11 +54,12 @@ def serve(
     port: int = 8000,
     kind: Kind = "participant",
     door: Door = "open",
+    analyse: Callable[[Path, Path], object] | None = None,
 ) -> None:
     """Serve a study until Ctrl-C; `announce` is called once it can be visited.
 
     Answers are kept in `data_folder` (SQLite), or in the database at `url`. With `kind="test"` whoever enters
-    without a link is a test, kept apart from the data.
+    without a link is a test, kept apart from the data. `analyse` makes the report the experimenter may see.
     """
     missing = [stimulus for stimulus in protocol.stimuli if stimulus not in manifest.clips]
     if missing:
@@ -68,17 +71,27 @@ def serve(
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
     amendments.check(protocol, store.protocol_hashes())
     clips = clips_of(manifest, clips_folder)
-    app = create_app(Site(protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door))
+    site = Site(protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse)
+    app = create_app(site)
     server, listener = _server(app, host, port)
     address = f"http://{host}:{listener.getsockname()[1]}"
     links = Links(f"{address}/", f"{address}/experimenter", password)
     threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
     try:
-        server.run(sockets=[listener])
+        with _backed_up(store, data_folder / "backups"):
+            server.run(sockets=[listener])
     except KeyboardInterrupt:
         pass  # uvicorn has finished what was under way and raises the signal again
     finally:
         store.close()
+
+
+def _backed_up(store: Store, folder: Path) -> AbstractContextManager[object]:
+    """Backups of a SQLite file for as long as the block lasts; other databases have means of their own."""
+    database = store.file
+    if database is None:
+        return nullcontext()
+    return BackupTimer(lambda: back_up(database, folder, now=utc_now()), every_s=BACKUP_EVERY_S)
 
 
 @contextmanager
@@ -111,7 +124,9 @@ def _server(app: FastAPI, host: str, port: int) -> tuple[uvicorn.Server, socket.
         server_header=False,
         timeout_graceful_shutdown=GRACE_S,
     )
-    return uvicorn.Server(config), listener
+    server = uvicorn.Server(config)
+    app.state.is_stopping = lambda: server.should_exit
+    return server, listener
 
 
 def _when_started(server: uvicorn.Server, then: Callable[[], None]) -> None:

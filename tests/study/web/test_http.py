@@ -76,7 +76,7 @@ def test_two_devices_with_one_link_share_one_session(
 ) -> None:
     page = experimenter.get("/experimenter")
     made = experimenter.post("/experimenter/links", data={"form_token": form_token(page), "count": 1})
-    [link] = re.findall(r"http://\S+/p/[\w-]{22}", made.text)
+    [link] = re.findall(r'href="(http://\S+/p/[\w-]{24})"', made.text)
     visitor.get(link)
     first = page_of(visitor.post("/consent", data={"agreed": "yes", "language": "de"}))
     with httpx.Client(base_url=address, follow_redirects=True) as other:
@@ -181,8 +181,11 @@ def test_cookies_cannot_be_read_by_scripts_nor_sent_by_other_sites(address: str)
 
 
 def test_the_data_are_behind_the_password(visitor: httpx.Client) -> None:
-    for path in ("/experimenter/responses.csv", "/experimenter/responses.codebook.json"):
-        assert visitor.get(path).status_code == 401
+    names = ("responses.csv", "responses.codebook.json", "responses.json", "study.db", "report.html", "live")
+    for name in names:
+        refused = visitor.get(f"/experimenter/{name}")
+        assert refused.status_code == 401
+        assert "Password" in refused.text, "whoever comes without a login is shown the way in"
     assert visitor.post("/experimenter/login", data={"password": "wrong"}).status_code == 401
     visitor.cookies.set("experimenter", f"9999999999.nonce.{'0' * 64}", path="/experimenter")
     assert visitor.get("/experimenter/responses.csv").status_code == 401
@@ -205,7 +208,7 @@ def test_a_note_is_shown_as_text_whatever_is_in_it(experimenter: httpx.Client) -
 def test_a_test_run_is_no_data(experimenter: httpx.Client, visitor: httpx.Client) -> None:
     token = form_token(experimenter.get("/experimenter"))
     made = experimenter.post("/experimenter/links", data={"form_token": token, "count": 1, "test": "true"})
-    visitor.get(re.findall(r"http://\S+/p/[\w-]{22}", made.text)[0])
+    visitor.get(re.findall(r'href="(http://\S+/p/[\w-]{24})"', made.text)[0])
     page = visitor.post("/consent", data={"agreed": "yes", "language": "en"})
     assert "Test run" in page.text
     assert visitor.post("/study/answers", json=submission("demographics", {"age": "34"})).status_code == 200

@@ -2,11 +2,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 import study.questions
+from study.storage.store import Phase
 from study.web.language import CATALOGUES, load_language, preferred
+from study.web.overview import STATES
 from study.web.pages import HERE
 from study.web.participant import PAGE_TEXTS
 
@@ -18,7 +21,7 @@ def english_texts() -> set[str]:
     sources = [*HERE.glob("templates/*.html"), *Path(study.questions.__file__).parent.glob("*.html")]
     sources += HERE.glob("*.py")
     found = {one or other for source in sources for one, other in SPOKEN.findall(source.read_text("utf-8"))}
-    return found | set(PAGE_TEXTS.values()) | {"invited", "active", "stalled", "completed"}
+    return found | set(PAGE_TEXTS.values()) | {*STATES, "free", *get_args(Phase)}
 
 
 @pytest.mark.parametrize("catalogue", sorted(CATALOGUES.glob("*.po")), ids=lambda path: path.stem)
