@@ -42,25 +42,58 @@ def violations(
 
 
 def _of_joint(trajectory: Trajectory, joint: Joint) -> list[Violation]:
+    found = []
+    for bounded in _bounded(trajectory, joint):
+        excess: FloatArray = np.maximum(bounded.values - bounded.upper, bounded.lower - bounded.values)
+        if excess.size and excess.max() > bounded.slack:
+            worst = int(np.argmax(excess))
+            value, time_s = float(bounded.values[worst]), float(trajectory.times[worst])
+            limit = bounded.upper if value > bounded.upper else bounded.lower
+            found.append(Violation(joint.name, bounded.quantity, time_s, value, limit, bounded.unit))
+    return found
+
+
+@dataclass(frozen=True)
+class _Bounded:
+    """A quantity of a joint over time, and its bounds."""
+
+    quantity: str
+    unit: str
+    values: FloatArray
+    lower: float
+    upper: float
+    slack: float
+
+
+def _bounded(trajectory: Trajectory, joint: Joint) -> tuple[_Bounded, ...]:
     y = trajectory.joint(joint.name)
     velocity = np.diff(y) / np.diff(trajectory.times)
     acceleration = np.diff(velocity) / np.diff(trajectory.times)[1:]
-    found = []
-    for quantity, unit, values, lower, upper, slack in (
-        ("position", joint.unit, y, joint.lower, joint.upper, TOLERANCE * joint.range),
-        ("velocity", f"{joint.unit}/s", velocity, *_both_ways(joint.max_velocity)),
-        ("acceleration", f"{joint.unit}/s²", acceleration, *_both_ways(joint.max_acceleration)),
-    ):
-        excess: FloatArray = np.maximum(values - upper, lower - values)
-        if excess.size and excess.max() > slack:
-            worst = int(np.argmax(excess))
-            limit = upper if values[worst] > upper else lower
-            found.append(
-                Violation(
-                    joint.name, quantity, float(trajectory.times[worst]), float(values[worst]), limit, unit
-                )
+    unit = joint.unit
+    return (
+        _Bounded("position", unit, y, joint.lower, joint.upper, TOLERANCE * joint.range),
+        _Bounded("velocity", f"{unit}/s", velocity, *_both_ways(joint.max_velocity)),
+        _Bounded("acceleration", f"{unit}/s²", acceleration, *_both_ways(joint.max_acceleration)),
+    )
+
+
+def share_that_fits(good: Trajectory, bad: Trajectory, robot: Robot) -> float:
+    """How much of the way from one motion to another, sample by sample, stays within every limit.
+
+    In closed form: the smallest (limit - good) / (bad - good). Both motions need the same times.
+    """
+    share = 1.0
+    for name in good.joints:
+        joint = robot.joint(name)
+        for here, there in zip(_bounded(good, joint), _bounded(bad, joint), strict=True):
+            room = np.where(
+                there.values > here.values,
+                here.upper + here.slack - here.values,
+                here.values - here.lower + here.slack,
             )
-    return found
+            way = np.abs(there.values - here.values)
+            share = min(share, float(np.min(room[way > 0] / way[way > 0], initial=share)))
+    return max(share, 0.0)
 
 
 def _both_ways(limit: float | None) -> tuple[float, float, float]:

@@ -29,6 +29,11 @@ class Exa(Principle):
     intensity: float = Field(1.0, ge=-100, le=100)
     around: Literal["goal", "straight"] = "goal"
 
+    @property
+    def is_affine(self) -> bool:
+        """Whether motions change in proportion to the intensity, all else being equal."""
+        return True
+
     def modulate(self, course: Course) -> Course:
         """Set the factor and what it acts around."""
         return replace(course, exaggeration=self.intensity, around=self.around)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -13,9 +13,10 @@ from pydantic import Field, field_validator, model_validator
 from stimuli.attractor import filtered_goal
 from stimuli.course import Course
 from stimuli.errors import InputError
+from stimuli.gaze import looking_at
 from stimuli.principles.principle import Principle, Stage
-from stimuli.robots.model import Robot
-from stimuli.units import POSITION, TIME, in_base_unit
+from stimuli.robots.model import Robot, Vector
+from stimuli.units import LENGTH, POSITION, TIME, in_base_unit
 
 
 class Goal(Principle):
@@ -23,6 +24,9 @@ class Goal(Principle):
 
     A goal may move under way: `{HeadYaw: {0.5: 25 deg, 1.6: -20 deg}}` heads for 25 degrees from 0.5 s on and
     for -20 from 1.6 s on; before that, for the demonstrated goal.
+
+    `look_at: [x, y, z]` sets goals of the head such that it ends looking at that point, in m from the floor
+    below the robot: x ahead, y to its left, z up. The rest of the body is then at its own goals.
 
     The spring leaves for a new goal at once, with an acceleration that jumps; `lag_s` > 0 lets the goal glide
     there from the demonstrated one, g(t) = g' + (g - g') exp(-t / lag).
@@ -36,6 +40,7 @@ class Goal(Principle):
 
     intensity: float = Field(1.0, ge=0, le=1)  # share of the way from the demonstrated goal to the new one
     joints: dict[str, float | dict[float, float]] = Field(default_factory=dict)  # s: position, if it moves
+    look_at: Vector | None = None
     lag_s: float = Field(0.0, ge=0, le=60)
 
     @classmethod
@@ -60,10 +65,25 @@ class Goal(Principle):
             return joints
         return {str(name): _positions(str(name), value) for name, value in sorted(joints.items())}
 
+    @field_validator("look_at", mode="before")
+    @classmethod
+    def _in_metres(cls, point: Any) -> Any:
+        if isinstance(point, str) or not isinstance(point, Sequence):
+            return point
+        try:
+            return [in_base_unit(coordinate, LENGTH) for coordinate in point]
+        except ValueError as err:
+            raise ValueError(f"goal.look_at: {err}") from err
+
     @property
     def is_neutral(self) -> bool:
         """No joint gets another goal."""
-        return self.intensity == 0 or not self.joints
+        return self.intensity == 0 or (not self.joints and self.look_at is None)
+
+    @property
+    def is_affine(self) -> bool:
+        """Whether motions change in proportion to the intensity, all else being equal."""
+        return True
 
     def modulate(self, course: Course) -> Course:
         """Move the goal, once or at one moment after the other."""
@@ -73,6 +93,8 @@ class Goal(Principle):
             column = _column(name, course)
             for moment, position in (positions if isinstance(positions, dict) else {0.0: positions}).items():
                 moments.setdefault(moment, {})[column] = position
+        if self.look_at is not None:
+            moments.setdefault(0.0, {}).update(self._gaze(self.look_at, course, moments))
         for moment in sorted(moments):
             goal, since = course.goal.copy(), moment / course.tau_s
             for column, position in moments[moment].items():
@@ -86,6 +108,20 @@ class Goal(Principle):
                 until_then=course if since > 0 else None,
             )
         return course
+
+    @staticmethod
+    def _gaze(
+        point: Vector, course: Course, moments: Mapping[float, Mapping[int, float]]
+    ) -> dict[int, float]:
+        """Goals of the head's joints, the others being where they are to end."""
+        pose = dict(course.robot.home) | dict(zip(course.joints, course.goal.tolist(), strict=True))
+        for moment in sorted(moments):
+            pose |= {course.joints[column]: position for column, position in moments[moment].items()}
+        try:
+            gaze = looking_at(point, course.robot, pose)
+        except InputError as err:
+            raise InputError(f"goal.look_at: {err}") from err
+        return {_column(name, course): position for name, position in gaze.items()}
 
 
 def _column(name: str, course: Course) -> int:

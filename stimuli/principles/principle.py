@@ -54,6 +54,16 @@ class Principle(BaseModel):
         """Whether this changes nothing."""
         return self.intensity == self.neutral
 
+    @property
+    def is_affine(self) -> bool:
+        """Whether motions change in proportion to the intensity, all else being equal."""
+        return False
+
+    @property
+    def dial(self) -> str:
+        """The parameter that says how strong this is."""
+        return "intensity"
+
     def modulate(self, course: Course) -> Course:
         """The changed course; called only where the principle is not neutral."""
         raise NotImplementedError

@@ -29,6 +29,11 @@ class Rand(Principle):
     intensity: float = Field(0.0, ge=0, le=100)
     seed: int = Field(0, ge=0)
 
+    @property
+    def is_affine(self) -> bool:
+        """Whether motions change in proportion to the intensity, all else being equal."""
+        return True
+
     def modulate(self, course: Course) -> Course:
         """Draw the noise."""
         noise = np.stack(

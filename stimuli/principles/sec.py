@@ -30,6 +30,11 @@ class Sec(Principle):
     intensity: float = Field(0.0, ge=0, le=100)
     form: Literal["output", "state"] = "output"
 
+    @property
+    def is_affine(self) -> bool:
+        """Whether motions change in proportion to the intensity, all else being equal."""
+        return self.form == "output"
+
     def modulate(self, course: Course) -> Course:
         """Couple velocities to positions."""
         if self.form == "output":

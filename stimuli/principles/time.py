@@ -24,6 +24,9 @@ class Time(Principle):
 
     `form: phase`, as in the paper, changes the phase alone: the forcing term follows it, the spring stays in
     real time. `form: retime` runs the whole motion by that clock, so that the path stays the same exactly.
+
+    `fit: scale` lets a motion that would be too fast for the robot last longer, by as little as makes it fit;
+    otherwise it is refused.
     """
 
     kind: ClassVar[str] = "time"
@@ -35,6 +38,7 @@ class Time(Principle):
     intensity: float = Field(1.0, gt=0, le=100)
     progression: tuple[Speed, ...] = ()
     form: Literal["phase", "retime"] = "phase"
+    fit: Literal["refuse", "scale"] = "refuse"
 
     @property
     def is_neutral(self) -> bool:

@@ -105,6 +105,7 @@ def assembled(
         qpos=qpos,
         hands=facts.hands,
         head=facts.head,
+        base_xyz=facts.base.xyz,
         sources=facts.sources,
         sha256=sources_sha256(f"robots/{name}.yaml", f"robots/{name}.py", *LOOK),
     )

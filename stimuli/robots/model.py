@@ -66,6 +66,14 @@ class Relation:
 
 
 @dataclass(frozen=True)
+class View:
+    """From where the camera looks at a robot; home's front is +x."""
+
+    azimuth_deg: float = 14.0  # to the robot's left of straight ahead
+    elevation_deg: float = 4.0  # above its middle
+
+
+@dataclass(frozen=True)
 class Robot:
     """A robot's kinematic facts, and how to build its MuJoCo body."""
 
@@ -79,6 +87,8 @@ class Robot:
     relations: tuple[Relation, ...] | None = None  # None: found from the tree
     hands: tuple[str, ...] = ()  # links whose reach is measured
     head: str | None = None  # link that looks
+    base_xyz: Vector = (0.0, 0.0, 0.0)  # of the root link, from the floor below the robot
+    view: View = View()
     sources: tuple[str, ...] = ()  # where the facts come from
     sha256: str = ""  # of everything the look and the motion depend on
 

@@ -10,7 +10,7 @@ import pytest
 from stimuli.descriptors import describe, sparc
 from stimuli.dmp import Learning, Primitive
 from stimuli.errors import InputError
-from stimuli.feasibility import violations
+from stimuli.feasibility import TOLERANCE, violations
 from stimuli.kinematics import link_poses
 from stimuli.motion import generate
 from stimuli.principles import Modulation
@@ -78,6 +78,72 @@ def test_too_fast_is_refused_too(spec, robot):
         InputError, match=r"Shoulder at .* velocity .* rad/s, limit -?6\. It would fit with time"
     ):
         generate(spec(time=0.5), slow)
+
+
+def test_a_motion_too_fast_may_be_asked_to_last_longer(spec, robot):
+    joints = tuple(replace(joint, max_velocity=6.0) for joint in robot.joints)
+    slow = replace(robot, joints=joints)
+    motion = generate(spec(time={"intensity": 0.5, "fit": "scale"}), slow)
+    used = motion.modulation["time"].intensity
+    assert 0.5 < used < 1
+    generate(spec(time=used + 1e-3), slow)
+    with pytest.raises(InputError):
+        generate(spec(time=used - 1e-2), slow)
+    at_ease = generate(spec(time={"intensity": 1.5, "fit": "scale"}), slow)
+    assert at_ease.modulation == spec(time={"intensity": 1.5, "fit": "scale"}).modulation
+    with pytest.raises(InputError, match=r"Shoulder at .* position"):  # no duration helps there
+        generate(spec(exa=2, time={"intensity": 0.5, "fit": "scale"}), slow)
+
+
+def test_the_largest_intensity_is_exact_where_motions_are_affine_in_it(spec, robot):
+    with pytest.raises(InputError) as error:
+        generate(spec(exa=2), robot)
+    shoulder = robot.joint("Shoulder")
+    primitive = Primitive.learn(generate(spec(), robot).demonstration)
+    one, two = (
+        primitive.rollout(Modulation.model_validate({"exa": p}), robot).joint("Shoulder").max()
+        for p in (1, 2)
+    )
+    exact = 1 + (shoulder.upper + TOLERANCE * shoulder.range - one) / (two - one)
+    assert float(str(error.value).split("exa.intensity ")[1].rstrip(".")) == pytest.approx(exact, abs=6e-3)
+
+
+def test_where_no_single_intensity_fits_all_of_them_together_are_advised(spec, robot):
+    wild = {"exa": 2.5, "goal": {"Shoulder": 3.5}}
+    with pytest.raises(InputError, match=r"No single intensity makes it fit; all of them would") as error:
+        generate(spec(**wild), robot)
+    exa, goal = (
+        float(str(error.value).split(f"{kind}.intensity ")[1].split(",")[0].rstrip("."))
+        for kind in ("exa", "goal")
+    )
+    generate(spec(exa=exa - 0.01, goal={"Shoulder": 3.5, "intensity": goal - 0.01}), robot)
+
+
+@pytest.mark.parametrize("form", ["literal", "mirror"])
+@pytest.mark.parametrize("dip", ["4 deg", 0.2])
+def test_anticipation_dips_as_far_as_wanted(form, dip, spec, robot):
+    written = {"dip": dip, "form": form, "count": 2}
+    plain, dipped = (generate(spec(**ant), robot).trajectory for ant in ({}, {"ant": written}))
+    for name in ("Hip", "Shoulder"):
+        assert plain.joint(name).min() > 0.099  # both go up from there
+        wanted = np.radians(4) if dip == "4 deg" else dip
+        assert 0.1 - dipped.joint(name).min() == pytest.approx(wanted, rel=0.02)
+    modulation = Modulation.model_validate({"ant": written})
+    assert Modulation.model_validate_json(modulation.model_dump_json()) == modulation
+
+
+def test_a_dip_is_refused_where_it_cannot_be_or_is_one_too_many(robot, demonstrate):
+    primitive = Primitive.learn(demonstrate(5))
+    with pytest.raises(InputError, match=r"ant\.dip: \w+ dips by at most"):
+        primitive.course(Modulation.model_validate({"ant": {"dip": 500}}), robot)
+    with pytest.raises(ValueError, match=r"ant\.dip: is given besides"):
+        Modulation.model_validate({"ant": {"dip": 0.1, "intensity": 0.2}})
+
+
+def test_the_growth_of_an_anticipation_stands_among_the_margins(spec, robot):
+    motion = generate(spec(ant=0.2), robot)
+    grown = {name: left["anticipation_growth"] for name, left in motion.margins.items() if len(left) > 2}
+    assert grown == {"Shoulder": pytest.approx(np.exp(25 * (0.2 + np.sqrt(0.24)) * 0.075))}
 
 
 def test_a_demonstration_out_of_range_is_named_as_such(spec, robot):
