@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import mujoco
@@ -14,6 +15,7 @@ from stimuli.trajectory import FloatArray, Trajectory
 MARGIN = 0.03  # of the picture's height that stays free
 MOVES_M = 0.015  # a place on the robot that moves less may lie outside
 RATE_HZ = 15
+DIRECTIONS = np.array([d for d in itertools.product([-1, 0, 1], repeat=3) if any(d)])  # (26, 3)
 
 
 def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, height: int) -> str:
@@ -24,11 +26,25 @@ def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, h
         if robot.sha256 not in studios:
             model = studio(robot, width=width, height=height)
             moving = np.flatnonzero(model.body_weldid[model.geom_bodyid])
-            studios[robot.sha256] = (model, Outline(model, moving[moving != model.geom(SHADOW).id]))
+            studios[robot.sha256] = (
+                model,
+                _outermost(Outline(model, moving[moving != model.geom(SHADOW).id])),
+            )
         model, outline = studios[robot.sha256]
         points = _swept(model, outline, robot, trajectory)
         fitting = [name for name in fitting if _inside(points, model, name, width / height)]
     return fitting[0] if fitting else list(PRESETS)[-1]
+
+
+def _outermost(outline: Outline) -> Outline:
+    """Of each part only the points furthest out in one of the directions; the margin holds the rest."""
+    kept = [
+        here[np.unique(np.argmax(outline.points[here] @ DIRECTIONS.T, axis=0))]
+        for here in (np.flatnonzero(outline.geoms == geom) for geom in np.unique(outline.geoms))
+    ]
+    chosen = np.concatenate(kept)
+    outline.points, outline.geoms = outline.points[chosen], outline.geoms[chosen]
+    return outline
 
 
 def _swept(model: mujoco.MjModel, outline: Outline, robot: Robot, trajectory: Trajectory) -> FloatArray:
