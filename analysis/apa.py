@@ -63,7 +63,9 @@ def share(count: int, total: int, decimals: int = 2) -> str:
     return str((Decimal(rounded) / 10**decimals).quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP))
 
 
-def t_sentence(result: TTest, p_adjusted: float | None, alpha: float, adjustment: str = "") -> str:
+def t_sentence(
+    result: TTest, p_adjusted: float | None = None, alpha: float = 0.05, adjustment: str = ""
+) -> str:
     """One t-test: t(33) = 4.82, p < .001, one-sided, d = 0.83, 95% CI [0.43, 1.21]."""
     n = ", ".join(f"n = {size}" for size in result.n) if len(result.n) > 1 else f"N = {result.n[0]}"
     if result.t is None:

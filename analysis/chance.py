@@ -132,7 +132,7 @@ DEFINITIONS: Mapping[str, Definition] = {
         "A", "rating against the middle of the scale", "agreeing with everything", midpoint
     ),
     "grand mean": Definition(
-        "B", "rating against the mean of all ratings of the part (estimated)", "a favourite item", grand_mean
+        "B", "rating against the mean of all ratings (estimated)", "a favourite item", grand_mean
     ),
     "other stimuli": Definition(
         "C", "rating minus the same item's mean for the other clips", "an intense clip", other_stimuli
@@ -141,7 +141,7 @@ DEFINITIONS: Mapping[str, Definition] = {
         "D", "rating minus the other items' mean for the same clip", "a favourite item", other_items
     ),
     "equal share": Definition(
-        "E1", "share of the points given to the clip against an equal share", "a favourite item", equal_share
+        "E1", "share of the clip's points against an equal share", "a favourite item", equal_share
     ),
     "equal share above lowest": Definition(
         "E2", "the same share with the lowest point as zero", "a favourite item", equal_share_above_lowest

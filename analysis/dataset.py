@@ -28,6 +28,7 @@ from analysis.rows import (
 )
 from analysis.wide import answer_columns, read_wide, unknown_names
 from study.participants import Kind
+from study.protocol.parts import series_of
 from study.questions.attention import Attention
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ class Answers:
         return np.array([*numbers, np.nan])[self.codes]
 
     def on(self, item: str, outcome: str | None = None) -> FloatArray:
-        """Answers on an item as numbers, or whether they are `outcome`; of a series the mean of all its items.
+        """Answers on an item as numbers, or whether they are `outcome`; of a series the mean of its items.
 
         (participants, stimuli), NaN where one is missing.
         """
@@ -106,9 +107,11 @@ class Responses:
     @property
     def note(self) -> str:
         """What every output says of answers that are no data; empty where they are."""
-        return {"participant": "", "test": "Test answers, no data", "simulated": "Simulated answers, no data"}[
-            self.kind
-        ]
+        return {
+            "participant": "",
+            "test": "Test answers, no data",
+            "simulated": "Simulated answers, no data",
+        }[self.kind]
 
     def answers(self, part: str, item: str | None = None) -> Answers:
         """The question of a part with that item; its first question if none is named."""
@@ -150,7 +153,7 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
             expected=question.expected if isinstance(question, Attention) else None,
             shown=part.shown,
             optional=question.optional or bool(part.only_if),
-            series=part.series,
+            series=series_of((question,)),
         )
         for part in protocol.parts.values()
         for question in part.questions

@@ -91,14 +91,16 @@ class Results:
         content: Json = {"scales": further.scales, "bootstrap_seed": SEED}
         for name in (*further.targets, *further.levels):
             part: Json = content.setdefault(outcomes[name].part, {})
-            part["tests"] = further.targets.get(name) or further.levels.get(name)
+            part.setdefault("tests", {}).update(further.targets.get(name) or further.levels[name])
             for key, found in (("agreement", further.agreement), ("order", further.order)):
                 if name in found:
                     part[key] = found[name]
             if name in further.confusions:
                 stimuli, items = outcomes[name].answers.stimuli, outcomes[name].answers.items
                 part["highest_rated"] = {
-                    ties: {s: dict(zip(items, row, strict=True)) for s, row in zip(stimuli, counts, strict=True)}
+                    ties: {
+                        s: dict(zip(items, row, strict=True)) for s, row in zip(stimuli, counts, strict=True)
+                    }
                     for ties, counts in further.confusions[name].items()
                 }
         content["before_exclusions"] = {

@@ -66,13 +66,13 @@ class Rows:
 
 
 def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str]) -> Rows:
-    """Read the columns in question as the texts written in the file; `columns` maps our names to the file's."""
+    """Read columns as the texts written in the file; `columns` maps our names to those of the file."""
     missing = [name for name in REQUIRED if name not in columns]
     if missing:
         raise ResponsesError(
             f"{path}:1: needs the columns {', '.join(REQUIRED)}; {', '.join(missing)} not among "
-            f"{', '.join(header) or 'none'}. Name them as in --column {missing[0]}=THEIRS, or give one column "
-            "per answer, named STIMULUS_ITEM"
+            f"{', '.join(header) or 'none'}. Name them as in --column {missing[0]}=THEIRS, or give one "
+            "column per answer, named STIMULUS_ITEM"
         )
     theirs = {theirs: ours for ours, theirs in columns.items()}
     frame = read_columns(

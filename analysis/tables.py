@@ -22,7 +22,7 @@ def escaped(text: str) -> str:
     return "".join(SPECIAL.get(character, character) for character in text)
 
 
-def confusion_latex(outcome: Levels) -> str:
+def confusion_latex(outcome: Levels, note: str = "") -> str:
     """Normalised confusion matrices of intended and perceived level, in the paper's form, with counts.
 
     Needs the packages amsmath, booktabs and diagbox. A row whose printed shares do not add up to 1.00 is
@@ -62,7 +62,8 @@ def confusion_latex(outcome: Levels) -> str:
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        r"  \caption{Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
+        rf"  \caption{{{_noted(note)}"
+        r"Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
         rf"perceived intensity ($I_P$), with counts. {escaped(confusion_note(outcome))}}}",
         rf"  \label{{tab:{outcome.part}}}",
         r"\end{table}",
@@ -98,7 +99,7 @@ def confusion_note(outcome: Levels) -> str:
     )
 
 
-def confusion_csv(outcome: Levels) -> str:
+def confusion_csv(outcome: Levels, note: str = "") -> str:
     """Counts, shares and tests, one row per principle and level."""
     head = (
         "principle", "level", "n", "higher", "lower", "share_higher", "share_ci_low", "share_ci_high",
@@ -119,10 +120,10 @@ def confusion_csv(outcome: Levels) -> str:
                     *_exact(one.choices, level),
                 )
             )
-    return _csv(head, rows)
+    return _csv(head, rows, note)
 
 
-def targets_csv(outcome: Targets) -> str:
+def targets_csv(outcome: Targets, note: str = "") -> str:
     """The test of every target, one row per stimulus."""
     head = (
         "stimulus", "item", "n", "mean", "sd", "se", "chance", "t", "df", "p", "p_adjusted", "decided_by",
@@ -136,20 +137,20 @@ def targets_csv(outcome: Targets) -> str:
         tested = (test.t, test.df, one.against.test.p, one.verdict.p_adjusted, one.verdict.test, *d)
         exact = (one.against.exact.p, one.wilcoxon.z, one.wilcoxon.p)
         rows.append((one.stimulus, one.item, *summary, one.against.null, *tested, *exact))
-    return _csv(head, rows)
+    return _csv(head, rows, note)
 
 
-def means_csv(outcome: Targets) -> str:
+def means_csv(outcome: Targets, note: str = "") -> str:
     """Mean, SD and SE of every item for every stimulus."""
     rows = [
         (stimulus, item, one.n, one.mean, one.sd, one.se)
         for stimulus, items in outcome.means.items()
         for item, one in items.items()
     ]
-    return _csv(("stimulus", "item", "n", "mean", "sd", "se"), rows)
+    return _csv(("stimulus", "item", "n", "mean", "sd", "se"), rows, note)
 
 
-def targets_latex(outcome: Targets) -> str:
+def targets_latex(outcome: Targets, note: str = "") -> str:
     """Mean target ratings and their tests. Needs the package booktabs."""
     lines = [
         r"% packages: booktabs",
@@ -174,13 +175,17 @@ def targets_latex(outcome: Targets) -> str:
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        rf"  \caption{{Ratings of the intended expression against chance "
+        rf"  \caption{{{_noted(note)}Ratings of the intended expression against chance "
         rf"({escaped(outcome.definition.says)}); {judging.test}, {judging.sides}, "
         rf"$p$ {judging.adjustment}.}}",
         rf"  \label{{tab:{outcome.part}}}",
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _noted(note: str) -> str:
+    return rf"\textbf{{{escaped(note)}.}} " if note else ""
 
 
 def _math(text: str) -> str:
@@ -214,9 +219,11 @@ def _exact(choices: Choices, level: str) -> tuple[object, ...]:
     return test.p_one_sided, test.p_mid, choices.fisher.p, choices.binomial[level].p
 
 
-def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+def _csv(head: Sequence[str], rows: Iterable[Sequence[object]], note: str) -> str:
+    """The rows below their head; what is no data says so in a last column."""
+    extra = [note] if note else []
     file = io.StringIO(newline="")
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows(["" if value is None else value for value in row] for row in rows)
+    writer.writerow([*head, *(["note"] if note else [])])
+    writer.writerows([*("" if value is None else value for value in row), *extra] for row in rows)
     return file.getvalue()

@@ -1,4 +1,4 @@
-"""Tables with one record per participant and one column per answer, as Qualtrics and LimeSurvey write them."""
+"""Tables with one record per participant and one column per answer, as Qualtrics and LimeSurvey have."""
 
 from __future__ import annotations
 

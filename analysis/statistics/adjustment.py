@@ -13,7 +13,11 @@ Vector = NDArray[np.float64]
 
 
 def adjust(family: Mapping[str, float | None], correction: Correction) -> dict[str, float | None]:
-    """Adjusted p-values by name. A test without a p-value still counts in the size of the family."""
+    """Adjusted p-values by name. A test without a p-value still counts in the size of the family.
+
+    >>> adjust({"joy": 0.01, "fear": 0.04}, "holm")
+    {'joy': 0.02, 'fear': 0.04}
+    """
     names = [name for name, p in family.items() if p is not None]
     values = np.array([family[name] for name in names], dtype=float)
     adjusted = dict(zip(names, ADJUSTMENTS[correction](values, len(family)).tolist(), strict=True))

@@ -31,6 +31,9 @@ def binomial(k: int, n: int, null: float = 0.5, alternative: Alternative = "two-
     """Exact binomial test; two-sided adds up every outcome no likelier than the one observed.
 
     Agrees with R `binom.test(k, n, p, alternative)`. With null ½ it is the sign test.
+
+    >>> round(binomial(19, 34, 0.5, "greater").p, 4)
+    0.3038
     """
     if n == 0:
         return Binomial(k, n, None, null, None, alternative, None, None, reason="undefined: no answers")

@@ -17,6 +17,11 @@ def bootstrap_mean(
 
     A resample of ratings is a draw of how often each value occurs, so its cost does not grow with n.
     Efron (1987), JASA 82.
+
+    >>> import numpy as np
+    >>> low, high = bootstrap_mean([4, 5, 3, 4, 5, 2], np.random.default_rng(0))
+    >>> round(low, 2), round(high, 2)
+    (2.83, 4.5)
     """
     x = observed(values)
     if x.size < 2 or np.ptp(x) == 0:

@@ -9,6 +9,9 @@ def clopper_pearson(k: int, n: int, level: float = 0.95) -> tuple[float, float] 
     """Exact interval of k of n, by inverting two binomial tests; None for n = 0.
 
     Agrees with R `binom.test(k, n)$conf.int`. Clopper & Pearson (1934), Biometrika 26.
+
+    >>> [round(limit, 3) for limit in clopper_pearson(27, 34)]
+    [0.621, 0.913]
     """
     if n == 0:
         return None

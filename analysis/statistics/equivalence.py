@@ -25,6 +25,9 @@ def equivalence(values: ArrayLike, bounds: tuple[float, float]) -> Equivalence:
 
     For paired data pass the differences. Agrees with R `t.test(x, mu = low, alternative = "greater")` and
     `t.test(x, mu = high, alternative = "less")`. Schuirmann (1987), J. Pharmacokinet. Biopharm. 15.
+
+    >>> round(equivalence([3, 3, 4, 2, 3, 3, 4, 3], (2, 4)).p, 5)
+    0.0031
     """
     low, high = bounds
     above = one_sample_t(values, low, "greater")

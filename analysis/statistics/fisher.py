@@ -27,6 +27,9 @@ def fisher(k1: int, n1: int, k2: int, n2: int, alternative: Alternative = "two-s
     Sums the hypergeometric probabilities, two-sided of every table no likelier than the observed one.
     Agrees with R `fisher.test(matrix(c(k1, n1 - k1, k2, n2 - k2), 2), alternative = )$p.value`. Fisher
     (1935).
+
+    >>> round(fisher(19, 34, 10, 34, "greater").p, 4)
+    0.0245
     """
     if n1 == 0 or n2 == 0:
         return Fisher((n1, n2), None, alternative, None, reason="undefined: a group without answers")

@@ -28,6 +28,10 @@ def friedman(ratings: ArrayLike) -> Friedman:
     """Friedman's test, ratings (participants, conditions), ties corrected; W is Kendall's effect size.
 
     Agrees with R `friedman.test`. Friedman (1937), JASA 32.
+
+    >>> result = friedman([[4, 2, 1], [5, 3, 3], [3, 2, 2], [4, 1, 2]])
+    >>> round(result.chi2, 3), result.df, round(result.p, 4), round(result.kendall_w, 3)
+    (6.857, 2, 0.0324, 0.857)
     """
     table = np.asarray(ratings, dtype=float)
     table = table[~np.isnan(table).any(axis=1)]

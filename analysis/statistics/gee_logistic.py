@@ -33,6 +33,12 @@ def gee_logistic(
 
     Below 40 participants errors are bias-reduced (Mancl & DeRouen 2001) unless told otherwise. Agrees with R
     `geepack::geeglm(corstr = "exchangeable")`. Liang & Zeger (1986), Biometrika 73.
+
+    >>> chosen, high = [1, 0, 1, 1, 0, 0, 1, 0], [1, 0, 1, 0, 1, 0, 1, 0]
+    >>> people = ["a", "a", "b", "b", "c", "c", "d", "d"]
+    >>> result = gee_logistic(chosen, high, people)
+    >>> round(result.effect, 3), round(result.se, 3)
+    (2.197, 1.778)
     """
     y, covariate = np.asarray(chosen, dtype=float), np.asarray(x, dtype=float)
     _, group = np.unique(np.asarray(participants), return_inverse=True)
@@ -112,7 +118,7 @@ def _bread(clusters: list[Cluster], beta: FloatArray, correlation: float) -> Flo
 
 
 def _robust_se(clusters: list[Cluster], beta: FloatArray, correlation: float, *, bias_reduced: bool) -> float:
-    """Sandwich standard error of the effect; each participant's own pull on the fit undone if bias-reduced."""
+    """Sandwich standard error of the effect; bias-reduced: without each participant's pull on the fit."""
     bread = np.linalg.inv(_bread(clusters, beta, correlation))
     filling = np.zeros((2, 2))
     for derivative, weighted, error in _terms(clusters, beta, correlation):

@@ -24,6 +24,9 @@ def icc(ratings: ArrayLike) -> dict[str, Icc]:
     ICC1: other raters for each subject; ICC2: raters drawn from many; ICC3: these raters and no others; k: of
     the raters' mean. Agrees with R `psych::ICC(x, lmer = FALSE)`. Shrout & Fleiss (1979), Psych. Bulletin 86;
     intervals after McGraw & Wong (1996). An empty result means that the correlations are undefined.
+
+    >>> round(icc([[4, 5, 4], [2, 2, 3], [5, 4, 5], [3, 3, 2]])["ICC2"].estimate, 3)
+    0.786
     """
     table = np.asarray(ratings, dtype=float)
     table = table[~np.isnan(table).any(axis=1)]

@@ -15,6 +15,9 @@ def krippendorff_alpha(ratings: ArrayLike, metric: Metric = "ordinal") -> float 
 
     1 − observed / expected disagreement over all pairs of ratings of the same unit. Reproduces the worked
     example of Krippendorff (2011), Computing Krippendorff's Alpha-Reliability.
+
+    >>> round(krippendorff_alpha([[4, 2, 5, 3], [5, 2, 4, 3], [4, 3, 5, 2]]), 3)
+    0.756
     """
     table = np.asarray(ratings, dtype=float)
     values = np.unique(table[~np.isnan(table)])

@@ -23,6 +23,9 @@ def label_permutation(ratings: ArrayLike, target: int) -> LabelPermutation:
 
     Under the null a participant's target rating is any of that participant's ratings with equal chance; the
     distribution of the sum is a convolution, so no permutation is drawn. Ratings are whole numbers.
+
+    >>> round(label_permutation([[5, 2, 1], [4, 4, 2], [5, 1, 3]], target=0).p, 4)
+    0.0741
     """
     table = np.asarray(ratings, dtype=float)
     table = table[~np.isnan(table).any(axis=1)]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 NODES = 25  # of the quadrature
+WIDEST = 10.0  # SD of participants, in log odds; beyond, the likelihood has no maximum to speak of
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,15 @@ class LogisticMixed:
 def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> LogisticMixed:
     """Fit by adaptive Gauss–Hermite quadrature, one covariate, rows (n,) of 0/1 answers in any order.
 
-    Agrees with R `lme4::glmer(chosen ~ x + (1 | participant), family = binomial, nAGQ = 25)`. Pinheiro & Bates
-    (1995), J. Comput. Graph. Stat. 4.
+    Agrees with R `lme4::glmer(chosen ~ x + (1 | participant), family = binomial, nAGQ = 25)`. Pinheiro &
+    Bates (1995), J. Comput. Graph. Stat. 4.
+
+    >>> chosen = [1, 0, 1, 1, 0, 0, 1, 0, 0, 1, 1, 0]
+    >>> high = [1, 0] * 6
+    >>> people = [person for person in "abcdef" for _ in range(2)]
+    >>> result = logistic_mixed(chosen, high, people)
+    >>> round(result.effect, 2), round(result.se, 2)
+    (1.39, 1.22)
     """
     from scipy.optimize import minimize
 
@@ -51,8 +59,8 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
     fit = minimize(model.negative, np.array([0.0, 0.0, 0.0]), method="BFGS", options={"gtol": 1e-6})
     intercept, effect, log_sd = (float(value) for value in fit.x)
     variance = float(np.linalg.pinv(_curvature(model.negative, fit.x))[1, 1])
-    if variance <= 0 or abs(effect) > 20:
-        return undefined("the conditions separate the answers")
+    if variance <= 0 or abs(effect) > 20 or log_sd > np.log(WIDEST):
+        return undefined("participants answer too consistently for a bounded effect")
     se = sqrt(variance)
     return LogisticMixed(
         n=y.size,
@@ -102,7 +110,7 @@ class _Model:
             u = u + np.clip(pull / curvature, -2, 2)
             if np.max(np.abs(pull / curvature)) < 1e-10:
                 break
-        return u, curvature
+        return u, np.asarray(curvature, dtype=float)
 
 
 def _curvature(function: object, at: FloatArray, step: float = 1e-4) -> FloatArray:

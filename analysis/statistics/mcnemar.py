@@ -38,6 +38,10 @@ def mcnemar(first: ArrayLike, second: ArrayLike) -> McNemar:
     b | b + c is binomial(½) when the conditions do not differ. Mid-p halves the weight of the observed
     outcome (Fagerland et al. 2013, BMC Med Res Methodol 13). Agrees with R `binom.test(b, b + c)`.
     McNemar (1947), Psychometrika 12.
+
+    >>> result = mcnemar([1, 1, 1, 0, 1, 1], [0, 0, 1, 0, 1, 0])
+    >>> result.b, result.c, result.p_one_sided, round(result.p_mid, 4)
+    (3, 0, 0.125, 0.125)
     """
     x, y = observed_pairs(first, second)
     b, c = int(np.sum((x == 1) & (y == 0))), int(np.sum((x == 0) & (y == 1)))

@@ -24,6 +24,10 @@ def newcombe(k1: int, n1: int, k2: int, n2: int) -> Difference:
     """k1/n1 − k2/n2 for independent groups, interval from the two Wilson intervals (his method 10).
 
     Newcombe (1998), Statistics in Medicine 17, 873–890.
+
+    >>> result = newcombe(32, 34, 1, 34)
+    >>> round(result.estimate, 3), [round(limit, 3) for limit in result.ci95]
+    (0.912, [0.733, 0.961])
     """
     method = "Newcombe hybrid score, independent proportions"
     first, second = wilson(k1, n1), wilson(k2, n2)

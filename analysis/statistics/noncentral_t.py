@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import exp, isnan, lgamma, log, pi
 
 import numpy as np
@@ -38,6 +39,14 @@ def _ncp_at(t: float, df: float, probability: float) -> float | None:
     return None if at_edge else middle
 
 
+@cache
+def quadrature(panels: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Nodes and weights on [−1, 1]: twenty Gauss–Legendre nodes in each of some equal panels."""
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    middles = (2 * np.arange(panels) + 1) / panels - 1
+    return (middles[:, None] + nodes / panels).ravel(), np.tile(weights / panels, panels)
+
+
 def hedges_factor(df: float) -> float:
     """The exact factor J(df) = Γ(df/2) / (√(df/2) Γ((df − 1)/2)) that makes g = J d unbiased.
 
@@ -49,14 +58,14 @@ def hedges_factor(df: float) -> float:
 def log_density(t: float, df: float, ncp: NDArray[np.float64]) -> NDArray[np.float64]:
     """Logarithm of the density of t(df) at each noncentrality, (k,) → (k,).
 
-    T = (Z + ncp) / S with S² a χ² over its df, so the density is an integral over S of a log-concave function;
-    Gauss–Legendre around its mode keeps ten digits however far out t is.
+    T = (Z + ncp) / S with S² a χ² over its df, so the density is the integral over S of a log-concave
+    function; Gauss–Legendre around its mode keeps ten digits however far out t is.
     """
     a = t * t + df
     mode = (t * ncp + np.sqrt((t * ncp) ** 2 + 4 * df * a)) / (2 * a)
     width = 1 / np.sqrt(a + df / mode**2)
     low, high = np.maximum(mode - 12 * width, 0), mode + 12 * width
-    nodes, weights = np.polynomial.legendre.leggauss(80)
+    nodes, weights = quadrature(4)
     s = (low + high)[:, None] / 2 + (high - low)[:, None] / 2 * nodes
     log_chi = log(2) + df / 2 * log(df / 2) - lgamma(df / 2)  # of the density of S, without its powers
     values = df * np.log(s) - df * s**2 / 2 - (t * s - ncp[:, None]) ** 2 / 2

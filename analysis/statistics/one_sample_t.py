@@ -18,6 +18,10 @@ def one_sample_t(values: ArrayLike, null: float, alternative: Alternative = "two
     """One-sample t-test of the mean against `null`; d is in sample standard deviations.
 
     Agrees with R `t.test(x, mu = )` and `effectsize::cohens_d(x, mu = )`. Student (1908), Biometrika 6.
+
+    >>> result = one_sample_t([4, 5, 3, 4, 5, 2], 3, "greater")
+    >>> round(result.t, 3), result.df, round(result.p, 4), round(result.d, 3)
+    (1.746, 5, 0.0706, 0.713)
     """
     sample = moments(values)
     undefined = partial(

@@ -41,6 +41,12 @@ def position_effect(scores: ArrayLike, places: ArrayLike) -> Position:
 
     Least squares with an effect for each participant and each stimulus. Agrees with R
     `lm(score ~ participant + stimulus + place)`.
+
+    >>> scores = [[4, 3, 5], [5, 5, 2], [3, 2, 4], [4, 1, 2]]
+    >>> places = [[1, 2, 3], [2, 3, 1], [3, 1, 2], [1, 3, 2]]
+    >>> result = position_effect(scores, places)
+    >>> round(result.estimate, 3), round(result.t, 3), round(result.p, 3)
+    (0.433, 0.835, 0.442)
     """
     y, person, stimulus, place, _ = _long(scores, places)
     base, persons = _within(_dummies(stimulus), person)
@@ -86,19 +92,18 @@ def carry_over(scores: ArrayLike, places: ArrayLike) -> CarryOver:
 def _long(scores: ArrayLike, places: ArrayLike) -> tuple[FloatArray, ...]:
     """Score, participant, stimulus, place and previous stimulus of every answer with a known place."""
     score, place = np.asarray(scores, dtype=float), np.asarray(places, dtype=float)
-    people, stimuli = score.shape
-    order = np.argsort(place, axis=1)  # places that are missing come last
-    before = np.full(order.shape, NOTHING)
-    rows = np.arange(people)[:, None]
-    before[rows, order[:, 1:]] = order[:, :-1]
+    order: NDArray[np.int64] = np.argsort(place, axis=1)  # places that are missing come last
+    before: NDArray[np.int64] = np.full(score.shape, NOTHING)
+    np.put_along_axis(before, order[:, 1:], order[:, :-1], axis=1)
     there = ~np.isnan(score) & ~np.isnan(place)
-    person, stimulus = np.indices(score.shape)
-    return score[there], person[there], stimulus[there], place[there], before[there]
+    person, stimulus = (index.astype(float) for index in np.nonzero(there))
+    return score[there], person, stimulus, place[there], before[there].astype(float)
 
 
 def _dummies(codes: FloatArray) -> FloatArray:
     """A row of ones and zeros per value but the first, (values − 1, n)."""
-    return (codes == np.unique(codes)[1:, None]).astype(float)
+    rows: FloatArray = (codes == np.unique(codes)[1:, None]).astype(float)
+    return rows
 
 
 def _within(rows: FloatArray, person: FloatArray) -> tuple[FloatArray, int]:

@@ -21,6 +21,10 @@ def paired_t(first: ArrayLike, second: ArrayLike, alternative: Alternative = "tw
     """Paired t-test of the mean of first − second, position i of both being one participant; d is d_z.
 
     Agrees with R `t.test(x, y, paired = TRUE)` and `effectsize::cohens_d(x, y, paired = TRUE)`.
+
+    >>> result = paired_t([4, 5, 3, 4, 5, 2], [2, 3, 3, 1, 2, 2])
+    >>> round(result.t, 3), result.df, round(result.p, 4)
+    (2.988, 5, 0.0305)
     """
     a, b = observed_pairs(first, second)
     result = one_sample_t(a - b, null=0.0, alternative=alternative)

@@ -29,6 +29,9 @@ def sign_flip(values: ArrayLike, null: float = 0.0, alternative: Alternative = "
     Differences are counted on their common grid (halves, thirds, … up to 1/1000), so the distribution of
     the sum is a convolution of two-point ones. Agrees with R `exactRankTests::perm.test(x, paired)`.
     Fisher (1935); Pagano & Tritchler (1983), JASA 78.
+
+    >>> round(sign_flip([4, 5, 3, 4, 5, 2], 3, "greater").p, 4)
+    0.125
     """
     differences = observed(values) - null
     n = differences.size

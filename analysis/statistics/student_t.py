@@ -22,6 +22,12 @@ def student_t(first: ArrayLike, second: ArrayLike, alternative: Alternative = "t
 
     Agrees with R `t.test(x, y, var.equal = TRUE)` and `effectsize::cohens_d(x, y)`. Student (1908),
     Biometrika 6.
+
+    >>> result = student_t([4, 5, 3, 4, 5, 2], [2, 3, 3, 1, 2, 2], "greater")
+    >>> round(result.t, 3), result.df, round(result.p, 4)
+    (2.936, 10, 0.0074)
+    >>> student_t([1, 1, 1], [0, 0, 0]).reason
+    'undefined: zero variance in both groups'
     """
     a, b = moments(first), moments(second)
     n = (a.n, b.n)

@@ -22,6 +22,10 @@ def welch_t(first: ArrayLike, second: ArrayLike, alternative: Alternative = "two
 
     Degrees of freedom after Welch and Satterthwaite. Agrees with R `t.test(x, y)` and
     `effectsize::cohens_d(x, y, pooled_sd = FALSE)`. Welch (1947), Biometrika 34.
+
+    >>> result = welch_t([4, 5, 3, 4, 5, 2], [2, 3, 3, 1, 2, 2])
+    >>> round(result.t, 3), round(result.df, 2), round(result.p, 4)
+    (2.936, 8.54, 0.0175)
     """
     a, b = moments(first), moments(second)
     n = (a.n, b.n)

@@ -43,6 +43,10 @@ def wilcoxon(
     Values equal to `null` are ranked with the rest and then left out (Pratt), or dropped before (Wilcoxon).
     Agrees with R `coin::wilcoxsign_test(x ~ null, zero.method = "Pratt")`, asymptotic and exact. Wilcoxon
     (1945), Biometrics 1; Pratt (1959), JASA 54.
+
+    >>> result = wilcoxon([4, 5, 3, 4, 5, 2], 3)
+    >>> round(result.z, 3), round(result.p, 4)
+    (1.497, 0.1345)
     """
     differences = observed(values) - null
     n, at_null = differences.size, int(np.sum(differences == 0))

@@ -11,6 +11,9 @@ def wilson(k: int, n: int, level: float = 0.95) -> tuple[float, float] | None:
     """Score interval of k of n without continuity correction; None for n = 0.
 
     Agrees with R `prop.test(k, n, correct = FALSE)$conf.int`. Wilson (1927), JASA 22.
+
+    >>> [round(limit, 3) for limit in wilson(27, 34)]
+    [0.632, 0.897]
     """
     if n == 0:
         return None

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analysis.dataset import read_responses
+from analysis.further import look_further
 from analysis.plan import carry_out
 from analysis.report import analyse
 from analysis.results import Provenance, Results
@@ -53,7 +54,7 @@ def test_degenerate_responses_give_a_whole_report(
     assert "nan" not in (tmp_path / "tables" / "recognition.csv").read_text(encoding="utf-8")
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(st.integers(0, 2**20), st.integers(1, 12), st.floats(0, 1))
 def test_any_holes_in_the_data_leave_strict_json(
     paper: Protocol, tmp_path_factory: pytest.TempPathFactory, seed: int, n: int, kept: float
@@ -65,8 +66,9 @@ def test_any_holes_in_the_data_leave_strict_json(
         "participant,stimulus,item,response\n" + "".join(",".join(row) + "\n" for row in rows),
         encoding="utf-8",
     )
-    findings = carry_out(read_responses(path, paper), everyone(paper))
-    results = Results(findings, Provenance("s", "p", "r", {}))
+    responses = read_responses(path, paper)
+    findings = carry_out(responses, everyone(paper))
+    results = Results(findings, Provenance("s", "p", "r", {}), look_further(findings, responses, paper))
     json.dumps(results.as_json(), allow_nan=False)
 
 

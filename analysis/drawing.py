@@ -1,0 +1,107 @@
+"""A figure that can be drawn into a paper's column or onto a page, with the same bytes every time.
+
+Colours are Okabe & Ito's, told apart with any colour vision; no figure relies on colour alone.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure, FigureBase
+
+COLOURS = ("#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7", "#000000", "#F0E442")
+INK, FAINT, ALARM = "#222222", "#6A6A6A", "#A3301C"
+COLUMN_IN = 3.5  # width of a column of a two-column paper
+STYLE: Any = {  # of matplotlib
+    "font.family": "DejaVu Sans",
+    "font.size": 7,
+    "axes.labelsize": 7,
+    "axes.linewidth": 0.6,
+    "axes.edgecolor": INK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "legend.fontsize": 6.5,
+    "legend.frameon": False,
+    "svg.hashsalt": "analysis",
+    "svg.fonttype": "path",
+    "pdf.fonttype": 42,
+    "savefig.dpi": 300,
+}
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def styled(function: Callable[P, R]) -> Callable[P, R]:
+    """Do it in our style, whatever matplotlib's settings are."""
+
+    @wraps(function)
+    def within(*args: P.args, **kwargs: P.kwargs) -> R:
+        from matplotlib import rc_context
+
+        with rc_context(STYLE):
+            return function(*args, **kwargs)
+
+    return within
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A figure with what a caption says of it, and what it says to someone who cannot see it."""
+
+    name: str
+    paint: Callable[[FigureBase], None]
+    height_in: float
+    caption: str
+    alt: str
+    note: str = ""  # what nobody may miss, such as that the data are simulated
+
+    def noting(self, note: str) -> Drawing:
+        """The same figure with a note, in the picture and in its words."""
+        if not note:
+            return self
+        return replace(self, note=note, caption=f"{note}. {self.caption}", alt=f"{note}. {self.alt}")
+
+    def onto(self, figure: FigureBase) -> None:
+        """Draw onto a figure, or a part of one."""
+        self.paint(figure)
+        if self.note:
+            figure.supxlabel(self.note, fontsize=5.5, color=ALARM)
+
+    @cached_property
+    def figure(self) -> Figure:
+        """As a figure of its own, as wide as a column."""
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(COLUMN_IN, self.height_in), layout="constrained")
+        self.onto(figure)
+        figure.draw_without_rendering()  # once, to place everything; then each format only draws
+        figure.set_layout_engine("none")
+        return figure
+
+    @cached_property
+    def svg(self) -> str:
+        """As SVG, without a date."""
+        return self._bytes("svg", {"Date": None, "Title": self.caption}).decode()
+
+    def write(self, folder: Path) -> None:
+        """Write NAME.svg, NAME.pdf and NAME.png."""
+        (folder / f"{self.name}.svg").write_text(self.svg, encoding="utf-8")
+        (folder / f"{self.name}.pdf").write_bytes(self._bytes("pdf", {"CreationDate": None}))
+        (folder / f"{self.name}.png").write_bytes(self._bytes("png", {"Software": None}))
+
+    @styled
+    def _bytes(self, form: str, metadata: Mapping[str, str | None]) -> bytes:
+        file = io.BytesIO()
+        self.figure.savefig(file, format=form, metadata=dict(metadata))
+        return file.getvalue()

@@ -1,0 +1,120 @@
+"""What stands on the pages of report.pdf: the main story; the further checks are in report.html."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from analysis import apa
+from analysis.drawing import ALARM, FAINT, Drawing
+from analysis.glossary import THREATS
+from analysis.pages import Pages
+from analysis.plan import Levels, Outcome, Targets
+from analysis.results import Results
+from analysis.words import claim, labels_of, method, sentences, summary, warnings
+
+if TYPE_CHECKING:
+    from study.protocol import Protocol
+
+TARGET_HEAD = ("Clip", "N", "M", "SD", "t", "df", "p", "p adj.", "d [95% CI]")
+TARGET_WIDTHS = (0.15, 0.06, 0.08, 0.08, 0.1, 0.08, 0.1, 0.11, 0.24)
+LEVEL_HEAD = ("Principle", "shares", "t", "df", "p", "p adj.", "d [95% CI]", "McNemar p", "diff. [95% CI]")
+LEVEL_WIDTHS = (0.1, 0.11, 0.07, 0.06, 0.08, 0.08, 0.18, 0.13, 0.19)
+
+
+def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) -> None:
+    """Write the report's main story as A4 pages."""
+    findings, labels = results.findings, labels_of(protocol)
+    title = f"{protocol.title.in_('en')}: results"
+    hashed = results.provenance.responses_sha256[:12]
+    with Pages(path, title, f"{protocol.study}, responses {hashed}", findings.responses.note) as pages:
+        pages.heading(title, size=17)
+        pages.write(f"Study {protocol.study}, N = {findings.flow.analysed} analysed.", colour=FAINT)
+        for name, outcome in findings.outcomes.items():
+            pages.write(summary(name, outcome), size=10)
+        for warning in warnings(findings):
+            pages.write(warning, colour=ALARM)
+        pages.heading("Participants")
+        pages.draw(drawings["flow"])
+        for name, outcome in findings.outcomes.items():
+            pages.heading(f"{name}: {claim(protocol, name, outcome)}")
+            _outcome(pages, name, outcome, drawings, labels)
+        if "forest" in drawings:
+            pages.heading("Effect sizes")
+            pages.draw(drawings["forest"])
+        pages.heading("What the design cannot tell")
+        for threat in THREATS:
+            pages.write(f"– {threat}")
+        pages.heading("Where the numbers come from")
+        pages.write(f"Responses SHA-256 {results.provenance.responses_sha256}", size=7.5)
+        pages.write(f"Protocol SHA-256 {results.provenance.protocol_sha256}", size=7.5)
+        pages.write(", ".join(f"{k} {v}" for k, v in results.provenance.software.items()), size=7.5)
+
+
+def _outcome(
+    pages: Pages, name: str, outcome: Outcome, drawings: Mapping[str, Drawing], labels: Mapping[str, str]
+) -> None:
+    mirrored = isinstance(outcome, Levels) and outcome.mirrors is not None
+    pages.write(
+        f"The same test as {outcome.mirrors} seen from the other side: printed, not counted again."
+        if isinstance(outcome, Levels) and mirrored
+        else method(outcome)
+    )
+    if not mirrored:
+        if name in drawings:
+            pages.draw(drawings[name])
+        if isinstance(outcome, Targets):
+            pages.tabulate(TARGET_HEAD, _target_rows(outcome, labels), TARGET_WIDTHS)
+            pages.write("What other definitions of chance say, adjusted p:")
+            pages.tabulate(*_definitions(outcome, labels))
+        else:
+            pages.tabulate(LEVEL_HEAD, _level_rows(outcome, labels), LEVEL_WIDTHS)
+    for key, sentence in sentences(outcome).items():
+        pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
+
+
+def _target_rows(outcome: Targets, labels: Mapping[str, str]) -> list[list[str]]:
+    rows = []
+    for key, one in outcome.results.items():
+        test = one.against.t_test
+        rows.append([
+            labels.get(key, key.capitalize()), str(one.summary.n), apa.number(one.summary.mean),
+            apa.number(one.summary.sd), apa.number(test.t), apa.degrees(test.df),
+            _p(test.p, outcome), _p(one.verdict.p_adjusted, outcome),
+            f"{apa.number(test.d)} {apa.interval(test.d_ci95)}",
+        ])  # fmt: skip
+    return rows
+
+
+def _definitions(
+    outcome: Targets, labels: Mapping[str, str]
+) -> tuple[list[str], list[list[str]], list[float]]:
+    results = outcome.results
+    head = ["Definition", *(labels.get(key, key.capitalize()) for key in results)]
+    rows = [
+        [f"{other.definition.id}: {other.definition.says}"]
+        + [_p(one.sensitivity_verdicts[name].p_adjusted, outcome) for one in results.values()]
+        for name, other in next(iter(results.values())).sensitivity.items()
+    ]
+    return head, rows, [0.46] + [0.54 / len(results)] * len(results)
+
+
+def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
+    rows = []
+    for key, one in outcome.results.items():
+        test, choices = one.student, one.choices
+        counts = choices.counts.values() if choices else ()
+        rows.append([
+            labels.get(key, key.capitalize()), " / ".join(apa.share(row[0], sum(row)) for row in counts),
+            apa.number(test.t), apa.degrees(test.df), _p(test.p, outcome),
+            _p(one.verdict.p_adjusted, outcome), f"{apa.number(test.d)} {apa.interval(test.d_ci95)}",
+            _p(choices.mcnemar.p_one_sided, outcome) if choices else "–",
+            f"{apa.number(choices.difference.estimate)} {apa.interval(choices.difference.ci95)}"
+            if choices else "–",
+        ])  # fmt: skip
+    return rows
+
+
+def _p(value: float | None, outcome: Outcome) -> str:
+    return "–" if value is None else apa.probability(value, outcome.judging.alpha).removeprefix("= ")

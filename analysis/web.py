@@ -1,0 +1,74 @@
+"""The report as one HTML page that needs nothing else."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from analysis import apa
+from analysis.drawing import Drawing
+from analysis.glossary import GLOSSARY, THREATS
+from analysis.plan import Levels, Targets
+from analysis.results import Results
+from analysis.words import claim, labels_of, method, sentences, summary, warnings
+
+if TYPE_CHECKING:
+    from study.protocol import Protocol
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) -> str:
+    """The report: the main story first, further checks folded, every column with its definition on hover."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
+
+    findings = results.findings
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"inline_svg": _inline_svg, "fixed": apa.number}
+    outcomes = findings.outcomes
+    return environment.get_template("report.html").render(
+        title=protocol.title.in_("en"),
+        css=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
+        provenance=results.provenance,
+        findings=findings,
+        further=results.further,
+        note=findings.responses.note,
+        alpha=findings.alpha,
+        labels=labels_of(protocol),
+        apa=apa,
+        glossary=GLOSSARY,
+        threats=THREATS,
+        drawings=drawings,
+        texts={name: claim(protocol, name, outcome) for name, outcome in outcomes.items()},
+        targets=[outcome for outcome in outcomes.values() if isinstance(outcome, Targets)],
+        levels=[outcome for outcome in outcomes.values() if isinstance(outcome, Levels)],
+        methods={name: method(outcome) for name, outcome in outcomes.items()},
+        sentences={name: sentences(outcome) for name, outcome in outcomes.items()},
+        summary=[summary(name, outcome) for name, outcome in outcomes.items()],
+        warnings=warnings(findings),
+        changed=[*results.further.changed(findings)],
+        differs=_differs,
+    )
+
+
+def _differs(outcome: Targets, definition: str) -> bool:
+    return any(
+        one.sensitivity_verdicts[definition].significant != one.verdict.significant
+        for one in outcome.results.values()
+    )
+
+
+def _inline_svg(svg: str) -> Any:
+    """An SVG as it can stand within HTML: without its prolog."""
+    from markupsafe import Markup
+
+    return Markup(re.sub(r"^.*?(?=<svg)", "", svg, count=1, flags=re.DOTALL))
