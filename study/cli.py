@@ -351,12 +351,66 @@ def orders(
 
 
 @app.command()
-def power(path: ProtocolPath) -> None:
-    """Say what the planned participants can show: the effects found with a power of .80."""
-    from study.power import power as power_of
+def design(path: ProtocolPath, as_json: AsJson = False) -> None:
+    """Show the design on one screen: factors, blocks, orders and balance."""
+    from study.design import design as design_of
 
-    for found in power_of(_load(path)):
-        console.print(str(found))
+    found = design_of(_load(path))
+    if as_json:
+        _print_json(found.as_json())
+    else:
+        console.print(escape(str(found)))
+
+
+@app.command()
+def power(
+    path: ProtocolPath,
+    simulate: Annotated[
+        int | None, typer.Option("--simulate", min=1, help="Simulate so many whole studies and analyse each.")
+    ] = None,
+    effect: Annotated[
+        float, typer.Option(min=0, help="Assumed: 0 by chance, 1 as plain as to the paper's participants.")
+    ] = 1.0,
+    n: Annotated[int | None, typer.Option("-n", min=2, help="Participants; as planned unless told.")] = None,
+) -> None:
+    """Say what the planned participants can show: exactly, or by simulating the whole analysis."""
+    protocol = _load(path)
+    if simulate is None:
+        from study.power import power as power_of
+
+        for found in power_of(protocol):
+            console.print(str(found))
+        return
+    from analysis.simulated_power import simulated_power
+
+    with _progress("simulating", simulate) as advance:
+        simulated = simulated_power(protocol, runs=simulate, effect=effect, n=n, progress=advance)
+    for one in simulated:
+        console.print(str(one))
+
+
+@app.command()
+def methods(
+    path: ProtocolPath,
+    latex: Annotated[bool, typer.Option("--latex", help="LaTeX instead of Markdown.")] = False,
+    out: Annotated[Path | None, typer.Option("--out", help="File to write; the screen unless told.")] = None,
+) -> None:
+    """Draft the methods section, with the protocol's true numbers."""
+    from study.methods import methods as draft
+    from study.methods import methods_latex
+
+    protocol = _load(path)
+    _write(methods_latex(protocol) if latex else draft(protocol), out)
+
+
+@app.command()
+def schema(
+    out: Annotated[Path | None, typer.Option("--out", help="File to write; the screen unless told.")] = None,
+) -> None:
+    """Write the protocol language as a JSON Schema, for completion in editors."""
+    from study.protocol.schema import schema_text
+
+    _write(schema_text(), out)
 
 
 @app.command()

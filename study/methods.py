@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from study.preregister import described, exclusions, stated
@@ -21,6 +22,22 @@ def methods(protocol: Protocol) -> str:
     }
     paragraphs = [f"## {title}\n\n{' '.join(write(protocol))}" for title, write in sections.items()]
     return "# Methods (draft)\n\n" + "\n\n".join(paragraphs) + "\n"
+
+
+def methods_latex(protocol: Protocol) -> str:
+    """The draft in LaTeX, to be put into a paper."""
+    text = _escaped(methods(protocol))
+    text = re.sub(r"(?m)^\\#\\# (.*)$", r"\\subsection{\1}", text)
+    text = re.sub(r"(?m)^\\# (.*)$", r"\\section{\1}", text)
+    return re.sub(r"\*(.+?)\*", r"\\emph{\1}", text)
+
+
+def _escaped(text: str) -> str:
+    """Every character that LaTeX would take for a command, as itself."""
+    text = re.sub(r"([&%$#_{}])", r"\\\1", text)
+    return text.translate(
+        {ord("“"): "``", ord("”"): "''", ord("~"): r"\textasciitilde{}", ord("…"): r"\dots{}"}
+    )
 
 
 def _count(n: int, one: str, many: str | None = None) -> str:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from pathlib import Path
 
 from stimuli.errors import InputError
-from study.protocol.schema import json_schema
+from study.protocol.schema import schema_text
 
 _PACKAGED = Path(__file__).parent / "template"  # in a wheel
 _CHECKED_OUT = Path(__file__).parent.parent / "protocols" / "template"
@@ -29,6 +28,5 @@ def new_study(folder: Path) -> Path:
     if name[:1].isalpha():
         text = protocol.read_text(encoding="utf-8")
         protocol.write_text(text.replace("study: my-study", f"study: {name}"), encoding="utf-8")
-    schema = json.dumps(json_schema(), indent=1, ensure_ascii=False)
-    (folder / "protocol.schema.json").write_text(schema + "\n", encoding="utf-8")
+    (folder / "protocol.schema.json").write_text(schema_text(), encoding="utf-8")
     return protocol

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import random
 import re
 import tempfile
@@ -23,6 +24,7 @@ import httpx
 from study.chance import Stream
 from study.export import export_responses
 from study.protocol import Protocol, Stimulus
+from study.protocol.parts import series_of
 from study.questions import Question
 from study.storage import open_store
 from study.web.app import create_app
@@ -116,7 +118,7 @@ def _answer(site: Site, page: dict[str, Any], manner: Manner, rng: random.Random
     stimulus = site.protocol.stimuli[step.trial.stimulus] if step.trial else None
     answers: dict[str, str] = {}
     for question in questions_of(site, step):
-        answers |= _choose(site.protocol, stimulus, question, manner, rng)
+        answers |= choose(site.protocol, stimulus, question, manner, rng)
     clips = site.clips_on(step.trial) if step.trial else {}
     return {
         "id": str(UUID(int=rng.getrandbits(128), version=4)),
@@ -130,15 +132,47 @@ def _answer(site: Site, page: dict[str, Any], manner: Manner, rng: random.Random
     }
 
 
-def _choose(
+def choose(
     protocol: Protocol, stimulus: Stimulus | None, question: Question, manner: Manner, rng: random.Random
 ) -> dict[str, str]:
+    """Answer a question about a stimulus (None: about oneself) in that manner."""
     if manner.same and question.values:
-        return dict.fromkeys(question.items, list(question.values)[-1])
+        return question.straight_lined()
     if stimulus is None:
         return question.simulate(rng, None, manner.effect)
     effect = manner.effect * ease_of(protocol, stimulus)
-    return question.simulate(rng, target_of(protocol, stimulus, question), effect)
+    answers = question.simulate(rng, target_of(protocol, stimulus, question), effect)
+    return _leaning(protocol, stimulus, question, answers=answers, effect=effect, rng=rng)
+
+
+def _leaning(
+    protocol: Protocol,
+    stimulus: Stimulus,
+    question: Question,
+    *,
+    answers: dict[str, str],
+    effect: float,
+    rng: random.Random,
+) -> dict[str, str]:
+    """Ratings moved by as many standard deviations as the effect between two conditions that are compared."""
+    options = tuple(question.values or ())
+    series = series_of((question,))
+    for hypothesis in protocol.analysis.hypotheses.values():
+        condition = stimulus.level or stimulus.name
+        if (
+            hypothesis.part != stimulus.part
+            or hypothesis.outcome
+            or condition not in (hypothesis.compare or ())
+        ):
+            continue
+        asked = hypothesis.item or next(iter(question.items))
+        up = (condition == (hypothesis.compare or ())[0]) != (hypothesis.alternative == "less")
+        step = (1 if up else -1) * effect / 2 * (len(options) - 1) / 4
+        for item in series.get(asked, (asked,)):
+            if item in answers:
+                place = options.index(answers[item]) + math.floor(step + rng.random())
+                answers[item] = options[min(max(place, 0), len(options) - 1)]
+    return answers
 
 
 def ease_of(protocol: Protocol, stimulus: Stimulus) -> float:

@@ -213,11 +213,6 @@ class Part:
     only_if: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     shown: int | None = None  # how many of the stimuli one participant sees, where those are not all
 
-    @property
-    def series(self) -> Mapping[str, tuple[str, ...]]:
-        """The scales of its questions, each with the items over which its score is the mean."""
-        return series_of(self.questions)
-
     def reference_of(self, stimulus: str) -> str | None:
         """The clip shown before this one."""
         return self.references.get(stimulus)

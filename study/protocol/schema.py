@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from stimuli.principles import PRINCIPLES
 from study.protocol.protocol import Protocol
 from study.questions import ANY_QUESTION, QUESTIONS
+from study.questions.scale import Scale
 
 
 def json_schema() -> dict[str, Any]:
@@ -44,6 +46,8 @@ def json_schema() -> dict[str, Any]:
     for kind, question in QUESTIONS.items():
         body = question.model_json_schema(by_alias=True, ref_template="#/$defs/{model}")
         definitions |= body.pop("$defs", {})
+        if issubclass(question, Scale):  # a set brings what would have to be written
+            body["anyOf"] = [{"required": body.pop("required")}, {"required": ["set"]}]
         definitions[kind] = body
     definitions["Question"] = {
         "type": "object",
@@ -54,6 +58,11 @@ def json_schema() -> dict[str, Any]:
     }
     schema["required"] = [name for name in schema["required"] if name != "languages"]  # those of the title
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **_with_questions(schema)}
+
+
+def schema_text() -> str:
+    """The schema as the text of `protocol.schema.json`."""
+    return json.dumps(json_schema(), indent=1, ensure_ascii=False) + "\n"
 
 
 def _with_questions(schema: Any) -> Any:

@@ -45,6 +45,10 @@ class Rank(Question):
         if given and len(given) < len(self.items):
             raise AnswerError(f"{len(given)} of {len(self.items)} are ranked; rank all or none")
 
+    def straight_lined(self) -> dict[str, str]:
+        """The order written, as by somebody who does not care."""
+        return dict(zip(self.items, self.values, strict=True))
+
     def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
         """A random order, the target often put first."""
         order = rng.sample(tuple(self.items), len(self.items))

@@ -6,11 +6,16 @@ import jsonschema_rs
 import pytest
 
 from stimuli.principles import PRINCIPLES
-from study.protocol.schema import json_schema
+from study.protocol.schema import json_schema, schema_text
 from study.protocol.source import read_source
 from study.questions import QUESTIONS
 
 PROTOCOLS = sorted((Path(__file__).parents[3] / "protocols").glob("*/protocol.yaml"))
+
+
+def test_the_published_schema_is_current():
+    published = Path(__file__).parents[3] / "protocols" / "protocol.schema.json"
+    assert published.read_text(encoding="utf-8") == schema_text(), f"study schema --out {published}"
 
 
 @pytest.mark.parametrize("path", PROTOCOLS, ids=lambda path: path.parent.name)
