@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
-from stimuli.robots.model import Robot
+from stimuli.robots.model import Robot, View
 from stimuli.robots.shapes import lathe
 from stimuli.robots.skeleton import dress
 from stimuli.trajectory import FloatArray
@@ -30,8 +30,6 @@ PRESETS: Mapping[str, tuple[float, float]] = {
 """Lower and upper edge of the picture at the robot's distance, in heights of the robot; closest first."""
 
 FOVY_DEG = 24.0
-AZIMUTH_DEG = 14.0  # of the camera, to the robot's left of straight ahead
-ELEVATION_DEG = 4.0
 BACKDROP = (0.82, 0.82, 0.82)
 SHADOW = "contact_shadow"  # the name of its patch of floor
 
@@ -53,7 +51,8 @@ def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
     for name, (bottom, top) in PRESETS.items():
         tall = height_m * (top - bottom)
         wide = tall if name == "head" else height_m * 1.2
-        add_camera(spec, name, middle=height_m * (bottom + top) / 2, tall=max(tall, wide * height / width))
+        shown = max(tall, wide * height / width)
+        add_camera(spec, name, robot.view, middle=height_m * (bottom + top) / 2, tall=shown)
     spec.visual.global_.offwidth = width
     spec.visual.global_.offheight = height
     return spec.compile()
@@ -197,9 +196,9 @@ def add_contact_shadow(spec: mujoco.MjSpec, foot: Foot) -> None:
     )
 
 
-def add_camera(spec: mujoco.MjSpec, name: str, *, middle: float, tall: float) -> None:
+def add_camera(spec: mujoco.MjSpec, name: str, view: View, *, middle: float, tall: float) -> None:
     """A camera that sees `tall` metres around the height `middle`, at the robot's distance."""
-    turn = Rotation.from_euler("yz", [-ELEVATION_DEG, AZIMUTH_DEG], degrees=True)
+    turn = Rotation.from_euler("yz", [-view.elevation_deg, view.azimuth_deg], degrees=True)
     distance = tall / 2 / np.tan(np.radians(FOVY_DEG) / 2)
     position = turn.apply([distance, 0, 0]) + np.array([0, 0, middle])
     axes = turn.as_matrix()[:, [1, 2, 0]]  # right, up and backwards, as MuJoCo's cameras look along -z

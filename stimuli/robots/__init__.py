@@ -31,9 +31,13 @@ def load_robot(name_or_path: str, base: Path) -> Robot:
         from stimuli.robots.files import read_robot
 
         return read_robot(base / name_or_path)
+    if name_or_path.startswith("robot_descriptions/"):
+        from stimuli.robots.files import described_robot
+
+        return described_robot(name_or_path)
     near = difflib.get_close_matches(name_or_path, ROBOTS, n=1)
     hint = f" Did you mean {near[0]!r}?" if near else ""
     raise InputError(
         f"robot: {name_or_path!r} is not a robot.{hint} "
-        f"Known: {', '.join(ROBOTS)}, or the path of a robot file."
+        f"Known: {', '.join(ROBOTS)}, the path of a robot file, or robot_descriptions/NAME."
     )

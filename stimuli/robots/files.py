@@ -2,20 +2,29 @@
 
 robot: my_robot
 title: My robot
-model: my_robot.urdf            # or MJCF; meshes by relative path, STL or OBJ
+model: my_robot.urdf            # or MJCF; meshes are STL, OBJ or, in a URDF, COLLADA
+search: [../descriptions]       # folders that hold the URDF's packages, if none above the model does
 home: {shoulder: 0.4}           # rad or m; joints not named are at zero, or at the nearest limit
 velocities: {shoulder: 2.0}     # per second, where the model has none or they should differ
 hands: [wrist]
 head: head
+relations:                      # for Secondary Action and Follow Through; found from the tree unless given
+  - {source: shoulder, target: elbow, sign: -1}
+camera: {azimuth_deg: 20, elevation_deg: 6}
+look: {upper_arm: "#d95f02"}    # colours of links
+
+The model may also be `robot_descriptions/NAME` (see `stimuli.robots.descriptions`).
 """
 
 from __future__ import annotations
 
 import hashlib
-import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from typing import Annotated
 
 import mujoco
 import numpy as np
@@ -24,13 +33,17 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from scipy.spatial.transform import Rotation
 
 from stimuli.errors import InputError
+from stimuli.robots.descriptions import PREFIX, find_description
 from stimuli.robots.facts import LOOK, sources_sha256
-from stimuli.robots.model import Joint, JointKind, Robot, Vector
+from stimuli.robots.model import Joint, JointKind, Relation, Robot, Vector, View
+from stimuli.robots.urdf import Mimic, Urdf, mimicked, read_urdf
 
 KINDS: Mapping[int, JointKind] = {
     int(mujoco.mjtJoint.mjJNT_HINGE): "revolute",
     int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
 }
+CODE = tuple(f"robots/{name}.py" for name in ("files", "urdf", "meshes"))
+Colour = Annotated[str, Field(pattern="^#[0-9a-fA-F]{6}$")]
 
 
 class RobotFile(BaseModel):
@@ -40,11 +53,25 @@ class RobotFile(BaseModel):
 
     robot: str
     title: str
-    model: Path
+    model: str
+    search: tuple[Path, ...] = ()
     home: Mapping[str, float] = Field(default_factory=dict)
     velocities: Mapping[str, float] = Field(default_factory=dict)
     hands: tuple[str, ...] = ()
     head: str | None = None
+    relations: tuple[Relation, ...] | None = None
+    camera: View = View()
+    look: Mapping[str, Colour] = Field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Body:
+    """A model file, and how it is dressed and put on the floor."""
+
+    source: Path
+    search: tuple[Path, ...] = ()
+    look: Mapping[str, str] = field(default_factory=dict)
+    lift_m: float = 0.0
 
 
 def read_robot(path: Path) -> Robot:
@@ -56,83 +83,124 @@ def read_robot(path: Path) -> Robot:
     except ValidationError as error:
         first = error.errors()[0]
         raise InputError(f"{path}: {'.'.join(map(str, first['loc']))}: {first['msg']}") from error
-    source = path.parent / facts.model
-    model = build(source).compile()
-    velocities = {**_urdf_velocities(source), **facts.velocities}
-    joints = _joints(model, source, velocities)
-    names = {joint.name for joint in joints}
-    for field, given in (("home", facts.home), ("velocities", facts.velocities)):
-        unknown = sorted(set(given) - names)
-        if unknown:
+    return robot_from(facts, path)
+
+
+def described_robot(name: str) -> Robot:
+    """A robot of the package `robot_descriptions`, as it comes."""
+    title = name.removeprefix(PREFIX).removesuffix("_description").removesuffix("_mj").replace("_", " ")
+    return robot_from(RobotFile(robot=name, title=title, model=name), Path(name))
+
+
+def robot_from(facts: RobotFile, place: Path) -> Robot:
+    """The robot with these facts, written at this place."""
+    if facts.model.startswith(PREFIX):
+        found = find_description(facts.model)
+        source, search, origin = found.model, found.search, found.origin
+    else:
+        source, search, origin = place.parent / facts.model, (), facts.model
+    body = Body(source, (*(place.parent / folder for folder in facts.search), *search))
+    urdf = read_urdf(source, body.search) if source.suffix == ".urdf" else None
+    mimics = dict(urdf.mimics) if urdf else {}
+    model = build(body).compile()
+    every = _joints(model, source, {**(urdf.velocities if urdf else {}), **facts.velocities}, mimics)
+    names = {joint.name for joint in every}
+    links = {model.body(index).name for index in range(model.nbody)}
+    for entry, given, known, what in (
+        ("home", facts.home, names, "joint that moves by itself"),
+        ("velocities", facts.velocities, names, "joint that moves by itself"),
+        ("hands", facts.hands, links, "link"),
+        ("head", [facts.head] if facts.head else [], links, "link"),
+        ("look", facts.look, links, "link"),
+        ("relations", [n for r in facts.relations or () for n in (r.source, r.target)], names, "joint"),
+    ):
+        if unknown := sorted(set(given) - known):
             raise InputError(
-                f"{path}: {field}: {unknown[0]!r} is no joint. Known: {', '.join(sorted(names))}."
+                f"{place}: {entry}: {unknown[0]!r} is no {what}. Known: {', '.join(sorted(known))}."
             )
+    home = {j.name: facts.home.get(j.name, min(max(0.0, j.lower), j.upper)) for j in every}
+    for joint in every:
+        if not joint.lower <= home[joint.name] <= joint.upper:
+            raise InputError(
+                f"{place}: home: {joint.name}: {home[joint.name]:g} is outside the joint's range, "
+                f"{joint.lower:g} to {joint.upper:g} {joint.unit}"
+            )
+    body = replace(body, look=facts.look, lift_m=-_lowest(model, mimicked(home, mimics)))
     return Robot(
         name=facts.robot,
         title=facts.title,
-        joints=joints,
-        home={
-            joint.name: facts.home.get(joint.name, min(max(0.0, joint.lower), joint.upper))
-            for joint in joints
-        },
-        build=partial(build, source),
+        joints=every,
+        home=home,
+        build=partial(build, body),
+        qpos=partial(mimicked, mimics=mimics) if mimics else dict,
+        relations=facts.relations,
         hands=facts.hands,
         head=facts.head,
-        sources=(str(facts.model),),
-        sha256=_sha256(path, source),
+        view=facts.camera,
+        sources=(origin,),
+        sha256=_sha256(facts, source, urdf),
     )
 
 
-def build(source: Path) -> mujoco.MjSpec:
-    """The model without lights and cameras, and without collision shapes where there are visible ones."""
+def build(body: Body) -> mujoco.MjSpec:
+    """The model alone: no lights, cameras or floor, no collision shapes where there are visible ones."""
+    source = body.source
     try:
         if source.suffix == ".urdf":
-            spec = mujoco.MjSpec.from_string(_urdf_for_mujoco(source))
-            spec.modelfiledir = str(source.parent)
+            urdf = read_urdf(source, body.search)
+            spec = mujoco.MjSpec.from_string(urdf.xml, assets=dict(urdf.meshes))
         else:
             spec = mujoco.MjSpec.from_file(str(source))
         spec.compiler.boundmass = spec.compiler.boundinertia = 1e-4  # nothing is simulated
         spec.compile()
-    except (OSError, ValueError, ET.ParseError) as error:
+    except (OSError, ValueError) as error:
         raise InputError(
-            f"{source}: MuJoCo cannot read this model: {error}. Meshes must be STL or OBJ, by relative path."
+            f"{source}: MuJoCo cannot read this model: {error}. It must be a URDF, or an MJCF with meshes in "
+            "STL or OBJ."
         ) from error
-    for thing in (*spec.lights, *spec.cameras):
-        spec.delete(thing)
     shown = [geom for geom in spec.geoms if not geom.contype and not geom.conaffinity]
-    for geom in [geom for geom in spec.geoms if shown and (geom.contype or geom.conaffinity)]:
-        spec.delete(geom)
+    hidden = [geom for geom in spec.geoms if shown and (geom.contype or geom.conaffinity)]
+    floors = [geom for geom in spec.worldbody.geoms if geom.type == mujoco.mjtGeom.mjGEOM_PLANE]
+    free = [joint for joint in spec.joints if joint.type == mujoco.mjtJoint.mjJNT_FREE]
+    for thing in (*spec.lights, *spec.cameras, *spec.keys, *free, *dict.fromkeys((*hidden, *floors))):
+        spec.delete(thing)
+    for link, colour in body.look.items():
+        for geom in spec.body(link).geoms:
+            geom.material = ""
+            geom.rgba = [*(int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)), 1.0]
+    for thing in (*spec.worldbody.bodies, *spec.worldbody.geoms):
+        thing.pos = thing.pos + np.array([0.0, 0.0, body.lift_m])
     return spec
 
 
-def _urdf_for_mujoco(source: Path) -> str:
-    """The URDF, told to keep what is only to be seen and every link."""
-    root = ET.parse(source).getroot()
-    options = root.find("mujoco")
-    options = ET.SubElement(root, "mujoco") if options is None else options
-    compiler = options.find("compiler")
-    compiler = ET.SubElement(options, "compiler") if compiler is None else compiler
-    compiler.attrib.update(discardvisual="false", fusestatic="false", strippath="false")
-    return ET.tostring(root, encoding="unicode")
+def _lowest(model: mujoco.MjModel, positions: Mapping[str, float]) -> float:
+    """Height of the lowest visible point: robots stand on the floor, wherever their model has its origin."""
+    data = mujoco.MjData(model)
+    for name, value in positions.items():
+        data.joint(name).qpos[0] = value
+    mujoco.mj_kinematics(model, data)
+    corners = np.array(list(itertools.product([-1, 1], repeat=3)))
+    boxes = model.geom_aabb[:, None, :3] + corners * model.geom_aabb[:, None, 3:]  # (geoms, 8, 3)
+    up = data.geom_xmat[:, None, 6:]
+    heights = (boxes * up).sum(axis=-1) + data.geom_xpos[:, 2:]
+    return float(heights.min(initial=np.inf)) if len(heights) else 0.0
 
 
-def _urdf_velocities(source: Path) -> dict[str, float]:
-    """Velocity limits, which MuJoCo does not keep."""
-    if source.suffix != ".urdf":
-        return {}
-    limits = (
-        (joint.get("name", ""), joint.find("limit")) for joint in ET.parse(source).getroot().iter("joint")
-    )
-    return {name: float(limit.get("velocity", "nan")) for name, limit in limits if limit is not None}
+def _joints(
+    model: mujoco.MjModel, source: Path, velocities: Mapping[str, float], mimics: Mapping[str, Mimic]
+) -> tuple[Joint, ...]:
+    """Joints between links that move against each other; links fixed to one another count as one.
 
-
-def _joints(model: mujoco.MjModel, source: Path, velocities: Mapping[str, float]) -> tuple[Joint, ...]:
-    """Joints between links that move against each other; links fixed to one another count as one."""
+    Joints that follow others are none of their own: below them links count as fixed.
+    """
     data = mujoco.MjData(model)
     data.qpos[:] = 0
     mujoco.mj_kinematics(model, data)
     joints = []
+    led = {model.jnt_bodyid[model.joint(name).id] for name in mimics}
     for index in range(model.njnt):
+        if model.joint(index).name in mimics:
+            continue
         joint, child = model.joint(index), model.jnt_bodyid[index]
         if int(joint.type[0]) not in KINDS or model.body_jntnum[child] > 1 or np.any(joint.pos):
             raise InputError(
@@ -140,6 +208,8 @@ def _joints(model: mujoco.MjModel, source: Path, velocities: Mapping[str, float]
                 "used, one for each link. Give each joint a link of its own."
             )
         parent = model.body_weldid[model.body_parentid[child]]
+        while parent in led:
+            parent = model.body_weldid[model.body_parentid[parent]]
         turn = data.xmat[parent].reshape(3, 3).T
         limited = bool(joint.limited[0])
         low, high = joint.range if limited else (-np.pi, np.pi)
@@ -167,11 +237,17 @@ def _vector(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Vector
     return x, y, z
 
 
-def _sha256(path: Path, source: Path) -> str:
-    """Hash of the two files, of every mesh and picture in the model's folder, and of the studio."""
-    digest = hashlib.sha256(sources_sha256("robots/files.py", *LOOK).encode())
-    seen = {".stl", ".obj", ".msh", ".mtl", ".png", ".xml"}
-    assets = sorted(file for file in source.parent.rglob("*") if file.suffix.lower() in seen)
-    for file in dict.fromkeys((path, source, *assets)):
-        digest.update(file.read_bytes())
+def _sha256(facts: RobotFile, source: Path, urdf: Urdf | None) -> str:
+    """Hash of what the file says, of the model with every mesh and picture, and of the studio."""
+    digest = hashlib.sha256(sources_sha256(*CODE, *LOOK).encode())
+    digest.update(facts.model_dump_json(exclude={"search"}).encode())
+    if urdf:
+        digest.update(urdf.xml.encode())
+        parts: Sequence[bytes] = list(urdf.meshes.values())
+    else:
+        seen = {".stl", ".obj", ".msh", ".png", ".xml"}
+        assets = sorted(file for file in source.parent.rglob("*") if file.suffix.lower() in seen)
+        parts = [file.read_bytes() for file in assets]
+    for part in parts:
+        digest.update(part)
     return digest.hexdigest()

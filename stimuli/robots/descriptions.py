@@ -1,0 +1,62 @@
+"""Robots of the package `robot_descriptions`: fetched by git, at commits it pins."""
+
+from __future__ import annotations
+
+import difflib
+import subprocess
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+from stimuli.errors import InputError
+
+PREFIX = "robot_descriptions/"
+CACHE = "ROBOT_DESCRIPTIONS_CACHE"
+
+
+@dataclass(frozen=True)
+class Description:
+    """Where a robot's model lies on this machine, and which version of it that is."""
+
+    model: Path  # MJCF where there is one, else URDF
+    search: tuple[Path, ...]  # folders that hold its packages
+    origin: str  # its name and the commit
+
+
+def find_description(name: str) -> Description:
+    """The description `robot_descriptions/NAME`, fetched if it is not in the cache yet.
+
+    InputError where the package is missing, knows no such name, or cannot fetch it. Only names on the
+    package's own list are imported.
+    """
+    wanted = name.removeprefix(PREFIX)
+    try:
+        known = import_module("robot_descriptions._descriptions").DESCRIPTIONS
+    except ImportError as error:
+        raise InputError(
+            f"{name}: this needs the package robot_descriptions, which is not installed here: "
+            "pip install robot_descriptions"
+        ) from error
+    if wanted not in known:
+        near = difflib.get_close_matches(wanted, known, n=3)
+        hint = f"Did you mean {' or '.join(near)}?" if near else f"It has {len(known)} others."
+        raise InputError(f"{name}: {wanted!r} is not among the robot descriptions. {hint}")
+    try:
+        module = import_module(f"robot_descriptions.{wanted}")
+    except Exception as error:  # git, the network and the file system fail in ways of their own
+        raise InputError(
+            f"{name}: cannot be fetched: {type(error).__name__}: {str(error).strip().splitlines()[-1:]}. "
+            "It is downloaded once, by git, which must be installed, and kept in the folder that the "
+            f"variable {CACHE} names (~/.cache/robot_descriptions unless told). Without a network, copy "
+            "that folder from a machine that has it."
+        ) from error
+    model = Path(getattr(module, "MJCF_PATH", None) or module.URDF_PATH)
+    repository, package = Path(module.REPOSITORY_PATH), Path(module.PACKAGE_PATH)
+    return Description(model, (package.parent, repository), f"{name} @{_commit(repository)}")
+
+
+def _commit(repository: Path) -> str:
+    done = subprocess.run(
+        ["git", "-C", str(repository), "rev-parse", "HEAD"], capture_output=True, text=True, check=False
+    )
+    return done.stdout.strip() or "unknown commit"

@@ -1,0 +1,146 @@
+"""URDF, with what MuJoCo leaves out: packages, COLLADA, velocity limits and joints that mimic others."""
+
+from __future__ import annotations
+
+import copy
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from stimuli.errors import InputError
+from stimuli.robots.meshes import read_pieces
+
+PACKAGE = "package://"
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """A joint at `multiplier` times another's position, plus `offset`."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True)
+class Urdf:
+    """A URDF as MuJoCo is to read it, and what it would not keep."""
+
+    xml: str
+    meshes: Mapping[str, bytes]  # by the names they have in `xml`
+    velocities: Mapping[str, float]  # per second; none where the file has none, or 0
+    mimics: Mapping[str, Mimic]  # by the joint that follows
+
+
+def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
+    """Read a URDF; its packages lie in the folders of `search`, or in one above the file."""
+    try:
+        root = ET.parse(source).getroot()
+    except (OSError, ET.ParseError) as error:
+        raise InputError(f"{source}: cannot be read as a URDF: {error}") from error
+    folders = [*search, *source.resolve().parents]
+    if root.find("link/visual") is not None:
+        _keep_only_what_is_seen(root)
+    meshes: dict[str, bytes] = {}
+    for link in root.iterfind("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is not None:
+                link.remove(shape)
+                link.extend(_dressed(shape, find_mesh(mesh.get("filename", ""), source, folders), meshes))
+    options = root.find("mujoco")
+    options = ET.SubElement(root, "mujoco") if options is None else options
+    for compiler in options.findall("compiler"):
+        options.remove(compiler)
+    ET.SubElement(options, "compiler", discardvisual="false", fusestatic="false", strippath="true")
+    return Urdf(ET.tostring(root, encoding="unicode"), meshes, _velocities(root), _mimics(root, source))
+
+
+def find_mesh(filename: str, source: Path, folders: Sequence[Path]) -> Path:
+    """The file a mesh's name means. InputError where it is not there, saying where it was looked for."""
+    if not filename.startswith(PACKAGE):
+        path = source.parent / filename.removeprefix("file://")
+        if not path.is_file():
+            raise InputError(f"{source}: the mesh {filename!r} is not there: {path}")
+        return path
+    package, _, rest = filename.removeprefix(PACKAGE).partition("/")
+    roots = [folder if folder.name == package else folder / package for folder in folders]
+    for root in roots:
+        if (root / rest).is_file():
+            return root / rest
+    present = [root for root in roots if root.is_dir()]
+    if present:
+        raise InputError(f"{source}: the mesh {filename!r} is not in the package: {present[0] / rest}")
+    looked = ", ".join(map(str, folders))
+    raise InputError(
+        f"{source}: {filename!r}: there is no folder {package!r} in {looked}. Name the folder it lies in: "
+        "`search: [PATH]` in the robot's YAML file."
+    )
+
+
+def mimicked(positions: Mapping[str, float], mimics: Mapping[str, Mimic]) -> dict[str, float]:
+    """Positions of all joints, those that follow others too."""
+    following = {
+        name: mimic.multiplier * positions[mimic.joint] + mimic.offset for name, mimic in mimics.items()
+    }
+    return {**positions, **following}
+
+
+def _keep_only_what_is_seen(root: ET.Element) -> None:
+    for link in root.iterfind("link"):
+        for collision in link.findall("collision"):
+            link.remove(collision)
+
+
+def _dressed(shape: ET.Element, path: Path, meshes: dict[str, bytes]) -> list[ET.Element]:
+    """The shape once for each piece of its mesh."""
+    shapes = []
+    for piece in read_pieces(path):
+        name = f"mesh{len(meshes)}{piece.suffix}"
+        meshes[name] = piece.data
+        shown = copy.deepcopy(shape)
+        mesh = shown.find("geometry/mesh")
+        assert mesh is not None
+        mesh.set("filename", name)
+        if piece.colour:
+            for material in shown.findall("material"):
+                shown.remove(material)
+            material = ET.SubElement(shown, "material", name=f"{name} colour")
+            ET.SubElement(material, "color", rgba=" ".join(f"{part:.6g}" for part in piece.colour))
+        shapes.append(shown)
+    return shapes
+
+
+def _velocities(root: ET.Element) -> dict[str, float]:
+    limits = {joint.get("name", ""): joint.find("limit") for joint in root.iterfind("joint")}
+    velocities = {
+        name: float(limit.get("velocity", 0)) for name, limit in limits.items() if limit is not None
+    }
+    return {name: velocity for name, velocity in velocities.items() if velocity > 0}
+
+
+def _mimics(root: ET.Element, source: Path) -> dict[str, Mimic]:
+    """Each joint that follows another, by the one that leads them all."""
+    written: dict[str, Mimic] = {}
+    for joint in root.iterfind("joint"):
+        if (entry := joint.find("mimic")) is not None:
+            numbers = (float(entry.get("multiplier", 1)), float(entry.get("offset", 0)))
+            written[joint.get("name", "")] = Mimic(entry.get("joint", ""), *numbers)
+    names = {joint.get("name") for joint in root.iterfind("joint")}
+    for name, mimic in written.items():
+        if mimic.joint not in names:
+            raise InputError(f"{source}: joint {name!r} mimics {mimic.joint!r}, which is no joint")
+    return {name: _led(name, written, source) for name in written}
+
+
+def _led(name: str, written: Mapping[str, Mimic], source: Path) -> Mimic:
+    mimic, seen = written[name], {name}
+    while mimic.joint in written:
+        if mimic.joint in seen:
+            raise InputError(f"{source}: joint {name!r} mimics itself")
+        seen.add(mimic.joint)
+        leader = written[mimic.joint]
+        multiplier = mimic.multiplier * leader.multiplier
+        mimic = Mimic(leader.joint, multiplier, mimic.multiplier * leader.offset + mimic.offset)
+    return mimic
