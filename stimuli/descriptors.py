@@ -4,9 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
-from stimuli.kinematics import link_poses
+from stimuli.kinematics import chain, link_poses
 from stimuli.robots.model import Robot
 from stimuli.trajectory import FloatArray, Trajectory
+
+DESCRIPTORS = {  # what each is, with its unit; of moving joints together: Euclidean norms
+    "duration_s": "s, until every joint rests",
+    "joints_moving": "joints that move by more than a hundredth of their range",
+    "amplitude": "peak-to-peak share of the range, mean over moving joints",
+    "speed_mean": "shares of range per s",
+    "speed_peak": "shares of range per s",
+    "acceleration_peak": "shares of range per s²",
+    "jerk_rms": "shares of range per s³",
+    "path_length": "shares of range",
+    "log_dimensionless_jerk": "nearer to 0 is smoother (Hogan & Sternad 2009)",
+    "sparc": "spectral arc length of the speed; nearer to 0 is smoother (Balasubramanian et al. 2015)",
+    "hand_width_m": "m, left to right, that the hands' paths span together",
+    "hand_height_m": "m, up and down",
+    "hand_depth_m": "m, forth and back",
+    "hand_reach_mean_m": "m, mean horizontal distance of the hands from the robot's vertical axis",
+    "contraction_index": "1 minus that distance over the longest possible (after Camurri et al. 2003)",
+    "gaze_elevation_mean_rad": "rad, mean, up is positive",
+    "head_forward_mean_m": "m, mean position of the head ahead of the robot's vertical axis",
+}
 
 STILL = 0.01  # of a joint's range: joints that move less are not counted as moving
 
@@ -27,12 +47,9 @@ UNITS = {
 
 
 def describe(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
-    """Descriptors of a motion; positions count as shares of each joint's range, so that all joints compare.
+    """Descriptors of a motion, as listed in `DESCRIPTORS`, without those that it or the robot cannot have.
 
-    `duration_s`; `joints_moving`; `amplitude`: mean peak-to-peak share of range over moving joints;
-    `speed_mean`, `speed_peak` (1/s), `acceleration_peak` (1/s²), `jerk_rms` (1/s³): of the moving joints
-    together, as Euclidean norms; `path_length`; `log_dimensionless_jerk` (Hogan & Sternad 2009) and `sparc`
-    (Balasubramanian et al. 2015), both of that speed, nearer to 0 is smoother.
+    Positions count as shares of each joint's range, so that all joints compare.
     """
     ranges = np.array([robot.joint(name).range for name in trajectory.joints])
     y = trajectory.positions / ranges  # (n, d)
@@ -56,7 +73,7 @@ def describe(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
     if speed.max() > 0:
         described["log_dimensionless_jerk"] = log_dimensionless_jerk(speed, jerk, dt)
         described["sparc"] = sparc(speed, dt)
-    return described | _extents(trajectory, robot)
+    return described | _posture(trajectory, robot)
 
 
 def log_dimensionless_jerk(speed: FloatArray, jerk: FloatArray, dt: float) -> float:
@@ -81,19 +98,36 @@ def sparc(speed: FloatArray, dt: float, cutoff_hz: float = 10.0, threshold: floa
     return float(-np.sum(np.hypot(np.diff(f) / (f[-1] - f[0]), np.diff(a))))
 
 
-def _extents(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
-    """How far the hands get, in m: left to right, up and down, forth and back, and off the robot's axis."""
-    if not robot.hands:
-        return {}
+def _posture(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
+    """Where hands and head get, with x ahead, y to the left and z up from the robot's root."""
     positions = dict(robot.home) | {name: trajectory.joint(name) for name in trajectory.joints}
     poses = link_poses(robot.joints, positions)
-    hands = np.stack(
-        [np.broadcast_to(poses[hand], (len(trajectory.times), 4, 4))[:, :3, 3] for hand in robot.hands]
-    )
-    apart = np.linalg.norm(hands[..., :2], axis=-1)  # (hands, n) horizontal distance from the robot's axis
-    return {
-        "hand_width_m": float(np.ptp(hands[..., 1])),
-        "hand_height_m": float(np.ptp(hands[..., 2])),
-        "hand_depth_m": float(np.ptp(hands[..., 0])),
-        "hand_reach_mean_m": float(apart.mean()),
-    }
+    described = {}
+    if robot.hands:
+        shape = (len(trajectory.times), 4, 4)
+        hands = np.stack([np.broadcast_to(poses[hand], shape)[:, :3, 3] for hand in robot.hands])
+        apart = float(np.linalg.norm(hands[..., :2], axis=-1).mean())  # of (hands, n)
+        longest = np.mean([_arm_m(robot, hand) for hand in robot.hands])
+        described |= {
+            "hand_width_m": float(np.ptp(hands[..., 1])),
+            "hand_height_m": float(np.ptp(hands[..., 2])),
+            "hand_depth_m": float(np.ptp(hands[..., 0])),
+            "hand_reach_mean_m": apart,
+            "contraction_index": float(1 - apart / longest),
+        }
+    if robot.head:
+        upright = link_poses(robot.joints, dict.fromkeys(robot.joint_names, 0.0))[robot.head]
+        gaze = poses[robot.head][..., :3, :3] @ upright[0, :3]
+        described |= {
+            "gaze_elevation_mean_rad": float(np.arcsin(np.clip(gaze[..., 2], -1, 1)).mean()),
+            "head_forward_mean_m": float(np.mean(poses[robot.head][..., 0, 3])),
+        }
+    return described
+
+
+def _arm_m(robot: Robot, hand: str) -> float:
+    """Longest way from the axis to a hand: across to the shoulder, then along the stretched arm."""
+    lengths = [np.array(joint.origin_xyz) for joint in chain(robot.joints, hand)]
+    off_axis = next((at for at, xyz in enumerate(lengths) if np.any(np.abs(xyz[:2]) > 1e-9)), 0)
+    shoulder = float(np.linalg.norm(lengths[off_axis][:2]))
+    return shoulder + float(sum(np.linalg.norm(xyz) for xyz in lengths[off_axis + 1 :]))

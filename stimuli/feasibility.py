@@ -102,11 +102,14 @@ def _both_ways(limit: float | None) -> tuple[float, float, float]:
 
 
 def margins(trajectory: Trajectory, robot: Robot) -> dict[str, dict[str, float]]:
-    """What is left, per joint: of the range in the joint's unit, of the velocity as a share of its limit."""
+    """Per joint: peak to peak, and what is left of the range, in its unit; of the velocity, as a share."""
     left = {}
     for name in trajectory.joints:
         joint, y = robot.joint(name), trajectory.joint(name)
-        left[name] = {"position": float(min(y.min() - joint.lower, joint.upper - y.max()))}
+        left[name] = {
+            "amplitude": float(np.ptp(y)),
+            "position": float(min(y.min() - joint.lower, joint.upper - y.max())),
+        }
         if joint.max_velocity is not None:
             fastest = float(np.max(np.abs(np.diff(y) / np.diff(trajectory.times)), initial=0.0))
             left[name]["velocity"] = 1 - fastest / joint.max_velocity

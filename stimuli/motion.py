@@ -29,7 +29,8 @@ class Motion:
     trajectory: Trajectory  # from rest to rest: after the duration it goes on until every joint has settled
     modulation: Modulation  # as asked for, but for the duration where that was let go (`fit: scale`)
     margins: dict[str, dict[str, float]]
-    """Per joint: left of its range (its unit), of its velocity limit (share), growth of its anticipation."""
+    """Per joint: amplitude, left of its range (its unit), of its velocity limit (share), and growth of its
+    anticipation."""
 
 
 def generate(spec: StimulusSpec, robot: Robot) -> Motion:
