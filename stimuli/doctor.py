@@ -7,10 +7,13 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
+
+from stimuli.errors import InputError
 
 State = Literal["good", "warning", "bad"]
 
@@ -19,6 +22,11 @@ PACKAGES = {
     "osmesa": "apt-get install --no-install-recommends libosmesa6 libopengl0",
 }
 SOFTWARE_RENDERERS = ("llvmpipe", "softpipe", "swrast")
+BROWSERS = ("chromium", "google-chrome", "chromium-browser", "microsoft-edge")
+CAN_PLAY = (
+    "<script>document.write(document.createElement('video')"
+    """.canPlayType('video/mp4; codecs="avc1.640020"'))</script>"""
+)
 NEEDED_MB = 500  # a study of 24 clips takes some 20 MB; the rest is for answers and reports
 PROBE = """
 import json, os
@@ -60,9 +68,9 @@ class Report:
 def examine(
     folder: Path | None = None, environment: Mapping[str, str] | None = None, *, needed_mb: int = NEEDED_MB
 ) -> Report:
-    """Try drawing through EGL and OSMesa, encoding and free disk space; `folder` is where clips would go."""
+    """Try drawing, encoding, a browser and the disk; `folder` is where clips would go."""
     env = dict(os.environ if environment is None else environment)
-    return Report((*_drawing(env), _encoder(), _disk(folder or Path.cwd(), needed_mb)))
+    return Report((*_drawing(env), _encoder(), *_browser(env), _disk(folder or Path.cwd(), needed_mb)))
 
 
 def _drawing(env: Mapping[str, str]) -> list[Line]:
@@ -74,18 +82,27 @@ def _drawing(env: Mapping[str, str]) -> list[Line]:
         ]
     tried = {backend: _probe(backend, env) for backend in ([chosen] if chosen else PACKAGES)}
     works = {backend: name for backend, (name, _) in tried.items() if name}
+    lacks = [
+        Line("warning" if works else "bad", f"drawing through {backend}", problem, _remedy(backend, env))
+        for backend, (_, problem) in tried.items()
+        if backend not in works and (not works or backend == "egl")
+    ]
     if not works:
-        return [
-            Line("bad", f"drawing through {backend}", problem, f"On Debian or Ubuntu: {PACKAGES[backend]}")
-            for backend, (_, problem) in tried.items()
-        ]
+        return lacks
     backend, name = next(iter(works.items()))
     if any(word in name.lower() for word in SOFTWARE_RENDERERS):
         remedy = (
             "Works; a clip of five seconds takes about ten. A graphics card and its driver would be faster."
         )
-        return [Line("warning", f"drawing through {backend}", f"in software, by {name}", remedy)]
-    return [Line("good", f"drawing through {backend}", name)]
+        return [*lacks, Line("warning", f"drawing through {backend}", f"in software, by {name}", remedy)]
+    return [*lacks, Line("good", f"drawing through {backend}", name)]
+
+
+def _remedy(backend: str, env: Mapping[str, str]) -> str:
+    device = env.get("MUJOCO_EGL_DEVICE_ID")
+    if backend == "egl" and device is not None:
+        return f"MUJOCO_EGL_DEVICE_ID is {device!r}: unset it, or give the number of a device that is there."
+    return f"On Debian or Ubuntu: {PACKAGES[backend]}"
 
 
 def _probe(backend: str, env: Mapping[str, str]) -> tuple[str, str]:
@@ -106,13 +123,49 @@ def _probe(backend: str, env: Mapping[str, str]) -> tuple[str, str]:
 
 
 def _encoder() -> Line:
+    """Whether a clip can be written and read back."""
     import av
+    import numpy as np
 
-    if "libx264" in av.codecs_available:
-        return Line("good", "video", f"H.264 by libx264 in PyAV {av.__version__}: plays in every browser")
-    return Line(
-        "bad", "video", f"PyAV {av.__version__} has no libx264", "Install PyAV from its wheel: pip install av"
-    )
+    from stimuli.video import read_frames, write_video
+
+    frames = [np.full((64, 64, 3), level, np.uint8) for level in (60, 120, 180)]
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            write_video(Path(folder, "clip.mp4"), frames, fps=3)
+            count = len(read_frames(Path(folder, "clip.mp4")))
+    except (av.FFmpegError, ValueError, InputError) as error:
+        remedy = "Install PyAV from its wheel, which brings libx264: pip install --force-reinstall av"
+        return Line("bad", "video", f"PyAV {av.__version__} writes no H.264 ({error})", remedy)
+    if count != len(frames):
+        return Line("bad", "video", f"{count} of {len(frames)} frames came back from a clip")
+    return Line("good", "video", f"H.264 by libx264 in PyAV {av.__version__}")
+
+
+def _browser(env: Mapping[str, str]) -> list[Line]:
+    """Whether the browser of this machine, if it is one that can be asked, plays such clips."""
+    browser = next(filter(None, (shutil.which(name, path=env.get("PATH")) for name in BROWSERS)), None)
+    if browser is None:
+        return []
+    asked = [
+        browser,
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--dump-dom",
+        f"data:text/html,{CAN_PLAY}",
+    ]
+    what = f"browser {Path(browser).name}"
+    try:
+        said = subprocess.run(
+            asked, env=dict(env), capture_output=True, text=True, timeout=30, check=False
+        ).stdout
+    except (subprocess.TimeoutExpired, OSError):
+        return [Line("warning", what, "did not answer", "Try the study in it before the first participant.")]
+    if "probably" in said:
+        return [Line("good", what, "plays H.264")]
+    remedy = "Take Chrome, Firefox, Safari or Edge, or on Debian the package chromium."
+    return [Line("warning", what, "does not play H.264", remedy)]
 
 
 def _disk(folder: Path, needed_mb: int) -> Line:

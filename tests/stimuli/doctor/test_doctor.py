@@ -46,3 +46,22 @@ def test_too_full_a_disk_is_bad(tmp_path: Path) -> None:
     assert disk.what == f"disk at {tmp_path}"
     assert disk.state == "bad"
     assert "Free at least" in disk.remedy
+
+
+def test_a_graphics_device_that_is_not_there_is_named(tmp_path: Path) -> None:
+    drawing = lines(tmp_path, MUJOCO_GL="egl", MUJOCO_EGL_DEVICE_ID="99")["drawing through egl"]
+    assert drawing.state == "bad"
+    assert "MUJOCO_EGL_DEVICE_ID is '99'" in drawing.remedy
+
+
+def test_the_browser_of_this_machine_is_asked_whether_it_plays_clips(tmp_path: Path) -> None:
+    assert lines(tmp_path, MUJOCO_GL="glfw")["browser chromium"].found == "plays H.264"
+    mute = tmp_path / "chromium"
+    mute.write_text("#!/bin/sh\necho '<html></html>'\n")
+    mute.chmod(0o755)
+    browser = lines(tmp_path, MUJOCO_GL="glfw", PATH=str(tmp_path))["browser chromium"]
+    assert (browser.state, browser.found) == ("warning", "does not play H.264")
+
+
+def test_a_machine_without_a_browser_is_told_nothing_of_it(tmp_path: Path) -> None:
+    assert not [what for what in lines(tmp_path, MUJOCO_GL="glfw", PATH="") if what.startswith("browser")]
