@@ -55,6 +55,7 @@ def render_clip(spec: StimulusSpec, robot: Robot, folder: Path, told: FramesTold
         size_bytes=path.stat().st_size,
         descriptors=describe(motion.trajectory, robot),
         margins=motion.margins,
+        robot_sources=robot.sources,
         software=software(),
         gl_renderer=renderer.gl_renderer,
     )

@@ -34,6 +34,7 @@ class Clip(BaseModel):
     margins: Mapping[str, Any] = Field(
         default_factory=dict
     )  # how far the motion stays from the robot's limits
+    robot_sources: tuple[str, ...] = ()  # where the robot's model comes from, with its version
     software: Mapping[str, str]
     gl_renderer: str
 

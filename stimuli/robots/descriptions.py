@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import shutil
 import subprocess
+import sys
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -31,7 +34,7 @@ def find_description(name: str) -> Description:
     """
     wanted = name.removeprefix(PREFIX)
     try:
-        known = import_module("robot_descriptions._descriptions").DESCRIPTIONS
+        known = import_module("robot_descriptions").DESCRIPTIONS
     except ImportError as error:
         raise InputError(
             f"{name}: this needs the package robot_descriptions, which is not installed here: "
@@ -41,14 +44,19 @@ def find_description(name: str) -> Description:
         near = difflib.get_close_matches(wanted, known, n=3)
         hint = f"Did you mean {' or '.join(near)}?" if near else f"It has {len(known)} others."
         raise InputError(f"{name}: {wanted!r} is not among the robot descriptions. {hint}")
-    try:
-        module = import_module(f"robot_descriptions.{wanted}")
-    except Exception as error:  # git, the network and the file system fail in ways of their own
+    if shutil.which("git") is None:
         raise InputError(
-            f"{name}: cannot be fetched: {type(error).__name__}: {str(error).strip().splitlines()[-1:]}. "
-            "It is downloaded once, by git, which must be installed, and kept in the folder that the "
-            f"variable {CACHE} names (~/.cache/robot_descriptions unless told). Without a network, copy "
-            "that folder from a machine that has it."
+            f"{name}: robot descriptions are fetched by git, which is not installed: apt-get install git"
+        )
+    try:
+        with redirect_stdout(sys.stderr):  # it tells of its downloads
+            module = import_module(f"robot_descriptions.{wanted}")
+    except Exception as error:  # git, the network and the file system fail in ways of their own
+        reason = (str(error).strip().splitlines() or [""])[-1].strip()
+        raise InputError(
+            f"{name}: cannot be fetched: {type(error).__name__}: {reason}. Fetched once, it is kept in the "
+            f"folder that the variable {CACHE} names (~/.cache/robot_descriptions unless told). Without a "
+            "network, copy that folder from a machine that has it."
         ) from error
     model = Path(getattr(module, "MJCF_PATH", None) or module.URDF_PATH)
     repository, package = Path(module.REPOSITORY_PATH), Path(module.PACKAGE_PATH)
