@@ -1,0 +1,130 @@
+"""Many participants at once: a small HTTP client, and a crowd that keeps answering for some seconds."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+from http.cookies import SimpleCookie
+from urllib.parse import urlencode, urlsplit
+
+
+@dataclass(frozen=True)
+class Answer:
+    """An HTTP response."""
+
+    status: int
+    headers: dict[str, str]
+    text: str
+
+
+class Browser:
+    """One visitor: one kept-alive connection, cookies, redirects. Quick, so that servers set the pace."""
+
+    def __init__(self, address: str, *, headers: dict[str, str] | None = None) -> None:
+        self._host = urlsplit(address).netloc
+        self._headers = headers or {}
+        self._cookies: dict[str, str] = {}
+        self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
+        self.path = "/"
+
+    async def get(self, path: str) -> Answer:
+        """Ask for a page."""
+        return await self._follow(await self._send("GET", path))
+
+    async def post(self, path: str, fields: dict[str, str], *, follow: bool = True) -> Answer:
+        """Send a form."""
+        form = {"Content-Type": "application/x-www-form-urlencoded"}
+        answer = await self._send("POST", path, urlencode(fields).encode(), form)
+        return await self._follow(answer) if follow else answer
+
+    async def post_json(self, path: str, content: bytes) -> Answer:
+        """Send JSON."""
+        return await self._send("POST", path, content, {"Content-Type": "application/json"})
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._streams:
+            self._streams[1].close()
+
+    async def _follow(self, answer: Answer) -> Answer:
+        while answer.status in {302, 303, 307}:
+            answer = await self._send("GET", urlsplit(answer.headers["location"]).path)
+        return answer
+
+    async def _send(
+        self, method: str, path: str, body: bytes = b"", headers: dict[str, str] | None = None
+    ) -> Answer:
+        self.path = path
+        if self._streams is None:
+            host, _, port = self._host.partition(":")
+            self._streams = await asyncio.open_connection(host, int(port), limit=2**20)
+        reader, writer = self._streams
+        fields = {"Host": self._host, "Content-Length": str(len(body))} | self._headers | (headers or {})
+        if self._cookies:
+            fields["Cookie"] = "; ".join(f"{name}={value}" for name, value in self._cookies.items())
+        lines = "".join(f"{name}: {value}\r\n" for name, value in fields.items())
+        writer.write(f"{method} {path} HTTP/1.1\r\n{lines}\r\n".encode() + body)
+        return await self._receive(reader)
+
+    async def _receive(self, reader: asyncio.StreamReader) -> Answer:
+        head = (await reader.readuntil(b"\r\n\r\n")).decode().split("\r\n")
+        found: dict[str, str] = {}
+        for line in head[1:-2]:
+            name, _, value = line.partition(": ")
+            found[name.lower()] = value
+            if name.lower() == "set-cookie":
+                self._cookies |= {key: morsel.value for key, morsel in SimpleCookie(value).items()}
+        body = b""
+        if found.get("transfer-encoding") == "chunked":
+            while size := int(await reader.readline(), 16):
+                body += (await reader.readexactly(size + 2))[:-2]
+            await reader.readline()
+        else:
+            body = await reader.readexactly(int(found.get("content-length", 0)))
+        return Answer(int(head[0].split()[1]), found, body.decode())
+
+
+@dataclass
+class Tally:
+    """What a crowd achieved."""
+
+    latencies_s: list[float] = field(default_factory=list)  # of every acknowledged answer
+    errors: int = 0
+    elapsed_s: float = 0.0
+
+    @property
+    def per_s(self) -> float:
+        """Answers stored per second."""
+        return len(self.latencies_s) / self.elapsed_s
+
+    def percentile_ms(self, share: float) -> float:
+        """So many ms or less for that share of the answers."""
+        if not self.latencies_s:
+            return float("inf")
+        return 1000 * sorted(self.latencies_s)[int(share * (len(self.latencies_s) - 1))]
+
+    async def time(self, sending: Awaitable[Answer]) -> Answer:
+        """Wait for an answer to be acknowledged, and count it."""
+        start = time.perf_counter()
+        answer = await sending
+        if answer.status < 400:
+            self.latencies_s.append(time.perf_counter() - start)
+        else:
+            self.errors += 1
+        return answer
+
+
+async def crowd(count: int, seconds: float, visit: Callable[[int, Tally], Awaitable[None]]) -> Tally:
+    """Let so many take part side by side, without thinking time, for so long or until all are done."""
+    tally = Tally()
+    start = time.perf_counter()
+    visits = [asyncio.create_task(visit(number, tally)) for number in range(count)]
+    _, running = await asyncio.wait(visits, timeout=seconds)
+    tally.elapsed_s = time.perf_counter() - start
+    for one in running:
+        one.cancel()
+    results = await asyncio.gather(*visits, return_exceptions=True)
+    tally.errors += sum(isinstance(result, Exception) for result in results)
+    return tally
