@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from uuid import uuid4
 
 import pytest
@@ -16,30 +17,26 @@ from study.storage import Store, open_store
 
 
 @pytest.fixture(scope="session")
-def postgresql(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def postgresql() -> Iterator[str]:
     """A PostgreSQL of our own; Debian keeps its programs out of the path."""
     found = [shutil.which("initdb"), *sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))]
     programs = Path(next(path for path in found if path)).resolve().parent
-    folder = tmp_path_factory.mktemp("postgresql")
-    as_user = []
-    if os.geteuid() == 0:  # it refuses to run as root
-        for path in (folder, *folder.parents[:2]):
-            path.chmod(0o755)
-        shutil.chown(folder, "postgres")
-        as_user = ["setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"]
-    data = folder / "data"
-    run = [*as_user, str(programs / "initdb"), "-D", str(data), "-U", "study", "-A", "trust", "-N"]
-    subprocess.run(run, check=True, capture_output=True, cwd=folder)
-    options = f"-k {folder} -c listen_addresses=''"
-    control = [*as_user, str(programs / "pg_ctl"), "-D", str(data), "-w"]
-    subprocess.run(
-        [*control, "-l", str(folder / "log"), "-o", options, "start"],
-        check=True,
-        cwd=folder,
-        stdout=subprocess.DEVNULL,
-    )
-    yield f"postgresql://study@/postgres?host={folder}"
-    subprocess.run([*control, "-m", "immediate", "stop"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+    with TemporaryDirectory() as made:  # not below pytest's folder, which is for our user's eyes alone
+        folder = Path(made)
+        as_user = []
+        if os.geteuid() == 0:  # it refuses to run as root
+            shutil.chown(folder, "postgres")
+            as_user = ["setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"]
+        data = folder / "data"
+        run = [*as_user, str(programs / "initdb"), "-D", str(data), "-U", "study", "-A", "trust", "-N"]
+        subprocess.run(run, check=True, capture_output=True, cwd=folder)
+        options = f"-k {folder} -c listen_addresses=''"
+        control = [*as_user, str(programs / "pg_ctl"), "-D", str(data), "-w"]
+        start = [*control, "-l", str(folder / "log"), "-o", options, "start"]
+        subprocess.run(start, check=True, cwd=folder, stdout=subprocess.DEVNULL)
+        yield f"postgresql://study@/postgres?host={folder}"
+        stop = [*control, "-m", "immediate", "stop"]
+        subprocess.run(stop, check=True, cwd=folder, stdout=subprocess.DEVNULL)
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
