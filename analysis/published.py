@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from analysis.apa import probability, t_sentence
 from analysis.statistics.fisher import Fisher, fisher
 from analysis.statistics.student_t import student_t
 from analysis.statistics.t_test import TTest
@@ -73,6 +74,13 @@ class Recomputed:
     student: TTest  # one-sided, first row above second
     fisher: Fisher
 
+    def __str__(self) -> str:
+        (first, _), (second, _) = self.counts
+        return (
+            f"{self.name}: {first} against {second} of {sum(self.counts[0])}; {t_sentence(self.student)}; "
+            f"Fisher's exact p {probability(self.fisher.p)}"
+        )
+
 
 @dataclass(frozen=True)
 class Verification:
@@ -83,6 +91,23 @@ class Verification:
     faults: tuple[Fault, ...]
     recomputed: tuple[Recomputed, ...]
     other_sizes: tuple[int, ...]  # other numbers of participants, up to twice n, that fit all good rows
+
+    def __str__(self) -> str:
+        faults = [f"{len(self.faults)} cannot be:", *(f"  {fault}" for fault in self.faults)]
+        tests = [f"  {one}" for one in self.recomputed]
+        sizes = ", ".join(map(str, self.other_sizes))
+        return "\n".join(
+            [
+                f"{self.cells} printed numbers checked against n = {self.n}.",
+                *(faults if self.faults else ["All of them are possible."]),
+                *(
+                    ["What follows from the possible rows (independent answers, one-sided):", *tests]
+                    if tests
+                    else []
+                ),
+                f"They would also fit n = {sizes}." if sizes else f"No other n up to {2 * self.n} fits them.",
+            ]
+        )
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,11 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal
+from pathlib import Path
 
 from scipy.special import chdtrc, fdtrc, ndtr, stdtr
+
+from stimuli.errors import InputError
 
 NUMBER = r"[−\-–]?\d*\.?\d+"
 REPORTED = re.compile(
@@ -31,6 +34,37 @@ class Checked:
     high: float
     consistent: bool
     decision_error: bool  # the printed p and the recomputed one lie on different sides of .05
+
+    def __str__(self) -> str:
+        between = f"{self.low:.3g}" if self.low == self.high else f"{self.low:.3g} to {self.high:.3g}"
+        decision = "; the decision changes" if self.decision_error else ""
+        return f"line {self.line}: {self.text}, but p is {between}{decision}"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Every reported test of a text, recomputed."""
+
+    checked: tuple[Checked, ...]
+
+    @property
+    def faults(self) -> tuple[Checked, ...]:
+        """Those whose p does not follow from their statistic."""
+        return tuple(one for one in self.checked if not one.consistent)
+
+    def __str__(self) -> str:
+        if not self.checked:
+            return "No test in the form t(33) = 4.82, p < .001 is reported here."
+        found = f"{len(self.checked)} reported tests recomputed, {len(self.faults)} inconsistent."
+        return "\n".join([found, *(f"  {one}" for one in self.faults)])
+
+
+def check_file(path: Path) -> Reading:
+    """Recompute every reported test of a text file."""
+    try:
+        return Reading(tuple(check_text(path.read_text(encoding="utf-8-sig"))))
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read as UTF-8 text: {error}") from error
 
 
 def check_text(text: str, alpha: float = 0.05) -> list[Checked]:

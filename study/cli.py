@@ -321,11 +321,16 @@ def analyse(
     responses: Annotated[Path, typer.Argument(metavar="RESPONSES.csv", help="Answers, one row per item.")],
     protocol: Annotated[Path, typer.Option("--protocol", help="Protocol folder, or its YAML file.")],
     out: Out = Path("report"),
+    column: Annotated[
+        list[str] | None,
+        typer.Option("--column", metavar="OURS=THEIRS", help="A column of another name: participant=PID."),
+    ] = None,
 ) -> None:
     """Carry out the protocol's plan of analysis: statistics, tables, figures and the report."""
     from analysis.report import analyse as analyse_responses
 
-    analyse_responses(responses, _load(protocol), out)
+    columns = {ours: theirs for ours, _, theirs in (said.partition("=") for said in column or ())}
+    analyse_responses(responses, _load(protocol), out, columns)
     console.print(f"The report is {out / 'report.html'}; all numbers are in {out / 'results.json'}.")
 
 
@@ -426,17 +431,24 @@ def preregister(
 
 @app.command()
 def verify(
-    table: Annotated[
-        Path, typer.Argument(metavar="TABLE.csv", help="The printed numbers, with their decimals.")
+    paper: Annotated[
+        Path,
+        typer.Argument(metavar="TABLE.csv|PAPER.md", help="Printed numbers with their decimals, or a text."),
     ],
-    n: Annotated[int, typer.Option("-n", min=2, help="Participants.")],
+    n: Annotated[int | None, typer.Option("-n", min=2, help="Participants behind the table.")] = None,
     items: Annotated[int, typer.Option(min=1, help="Items behind each mean.")] = 1,
 ) -> None:
-    """Check a published table: can these numbers come from n participants, and which tests follow?"""
+    """Check what is published: can n participants give this table, do these p-values follow?"""
     from analysis.published import verify as verify_table
+    from analysis.statcheck import check_file
 
-    found = verify_table(table, n, items=items)
-    console.print(str(found))
+    if paper.suffix.lower() == ".csv":
+        if n is None:
+            raise InputError(f"{paper}: say how many participants are behind the table, as in -n 34")
+        found: Any = verify_table(paper, n, items=items)
+    else:
+        found = check_file(paper)
+    console.print(escape(str(found)))
     raise typer.Exit(1 if found.faults else 0)
 
 

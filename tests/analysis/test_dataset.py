@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.dataset import read_responses
+from analysis.dataset import Responses, read_responses
 from analysis.published import HIGHER
 from analysis.rows import ResponsesError
 from study.protocol import Protocol
@@ -118,3 +118,79 @@ def test_practice_and_demographics_are_left_out(paper: Protocol, tmp_path: Path)
         encoding="utf-8",
     )
     assert int((read_responses(path, paper).answers("recognition").codes >= 0).sum()) == 1
+
+
+def read(paper: Protocol, folder: Path, text: str, columns: dict[str, str] | None = None) -> Responses:
+    path = folder / "r.csv"
+    path.write_text(text, encoding="utf-8")
+    return read_responses(path, paper, columns)
+
+
+@pytest.mark.parametrize(("kind", "note"), [
+    ("participant", ""), ("simulated", "Simulated answers, no data"), ("test", "Test answers, no data"),
+])  # fmt: skip
+def test_answers_that_are_no_data_say_so(paper: Protocol, tmp_path: Path, kind: str, note: str) -> None:
+    text = f"participant,stimulus,item,response,session\nP1,joy,joy,4,{kind}\n"
+    assert read(paper, tmp_path, text).note == note
+
+
+@pytest.mark.parametrize(("rows", "message"), [
+    ("P1,joy,joy,4,participant\nP2,joy,joy,4,simulated\n", "r.csv:3: simulated answers among participant"),
+    ("P1,joy,joy,4,2\n", "r.csv:2: session '2' is none of participant, .* --column session="),
+])  # fmt: skip
+def test_kinds_of_answers_are_never_mixed_or_guessed(
+    paper: Protocol, tmp_path: Path, rows: str, message: str
+) -> None:
+    with pytest.raises(ResponsesError, match=message):
+        read(paper, tmp_path, "participant,stimulus,item,response,session\n" + rows)
+
+
+def test_columns_may_bear_other_names(paper: Protocol, tmp_path: Path) -> None:
+    text = "PID;clip;item;value;session\nP1;joy;joy;4,0;first\n"
+    said = {"participant": "PID", "stimulus": "clip", "response": "value", "session": ""}
+    found = read(paper, tmp_path, text, said)
+    assert found.answers("recognition").ratings[0, 0, 0] == 4
+    with pytest.raises(ResponsesError, match=r"column 'ID', said to be participant, is not among PID, clip"):
+        read(paper, tmp_path, text, {"participant": "ID"})
+    with pytest.raises(ResponsesError, match=r"'person' is neither one of participant"):
+        read(paper, tmp_path, text, {"person": "PID"})
+
+
+QUALTRICS = (
+    "ResponseId,joy_joy,joy_sadness,arc_high\n"
+    '"Response ID","How … joy","How … sadness","Compared …"\n'
+    '"{""ImportId"":""_recordId""}","{""ImportId"":""QID1""}","{""ImportId"":""QID2""}","{""ImportId"":""QID3""}"\n'
+    "R_2,5,1,higher\nR_1,4,,lower\n"
+)
+
+
+@pytest.mark.parametrize(("text", "person"), [
+    (QUALTRICS, "ResponseId"),
+    ("id,Joy[joy],Joy[sadness],arc_high[intensity]\nR_2,5,1,higher\nR_1,4,,lower\n", "id"),
+])  # fmt: skip
+def test_one_column_per_answer_is_read_as_one_row_per_answer(
+    paper: Protocol, tmp_path: Path, text: str, person: str
+) -> None:
+    found = read(paper, tmp_path, text, {"participant": person})
+    assert found.participants == ("R_1", "R_2")
+    rated = found.answers("recognition").ratings[:, 0, :2]
+    assert np.array_equal(rated, [[4, np.nan], [5, 1]], equal_nan=True)
+    place = found.answers("intensity").stimuli.index("arc_high")
+    assert found.answers("intensity").chose("higher")[:, place, 0].tolist() == [0, 1]
+
+
+def test_a_bad_answer_in_a_wide_table_is_named_with_its_line(paper: Protocol, tmp_path: Path) -> None:
+    with pytest.raises(ResponsesError, match=r"r.csv:5: response '9' is not an answer to joy"):
+        read(paper, tmp_path, QUALTRICS.replace("R_1,4", "R_1,9"), {"participant": "ResponseId"})
+    with pytest.raises(ResponsesError, match=r"none called participant; name it as in --column"):
+        read(paper, tmp_path, QUALTRICS)
+    with pytest.raises(ResponsesError, match=r"stimulus '.*' is not in the protocol|response 'joy_fear'"):
+        read(paper, tmp_path, "participant,stimulus,item,response\nP1,joy_fear,joy,3\n")
+
+
+def test_times_are_numbers_or_refused(paper: Protocol, tmp_path: Path) -> None:
+    head = "participant;stimulus;item;response;rt_ms\n"
+    found = read(paper, tmp_path, head + "P1;joy;joy;4;1500,5\n")
+    assert found.median_rt_s is not None and found.median_rt_s[0] == pytest.approx(1.5005)
+    with pytest.raises(ResponsesError, match=r"r.csv:2: rt_ms 'soon' is not a number"):
+        read(paper, tmp_path, head + "P1;joy;joy;4;soon\n")

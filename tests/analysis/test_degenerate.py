@@ -13,10 +13,11 @@ from hypothesis import strategies as st
 from analysis.dataset import read_responses
 from analysis.further import look_further
 from analysis.plan import carry_out
-from analysis.report import analyse
+from analysis.report import analyse, tables
 from analysis.results import Provenance, Results
-from study.protocol import Exclusions, Protocol
-from tests.analysis.conftest import Row, Write, choices, ratings
+from analysis.web import html
+from study.protocol import Exclusions, Protocol, load_protocol
+from tests.analysis.conftest import EMOTIONS, PAPER, Row, Write, choices, ratings
 
 CONSTANT = [(p, s, i, "5") for p, s, i, _ in ratings(n=6)] + [
     (p, s, i, "higher") for p, s, i, _ in choices(n=6)
@@ -40,18 +41,54 @@ def everyone(protocol: Protocol) -> Protocol:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_degenerate_responses_give_a_whole_report(
-    case: str, paper: Protocol, write: Write, tmp_path: Path
-) -> None:
-    analyse(write(CASES[case]), everyone(paper), tmp_path)
-    text = (tmp_path / "results.json").read_text(encoding="utf-8")
-    assert "NaN" not in text and "Infinity" not in text
+def test_degenerate_responses_give_every_number_or_a_reason(case: str, paper: Protocol, write: Write) -> None:
+    responses = read_responses(write(CASES[case]), paper)
+    findings = carry_out(responses, everyone(paper))
+    further = look_further(findings, responses, everyone(paper))
+    results = Results(findings, Provenance("s", "p", "r", {}), further)
+    text = json.dumps(results.as_json(), allow_nan=False)
     for part in ("recognition", "intensity"):
         for found in json.loads(text)[part].values():
             test = found["t_test" if part == "recognition" else "student"]
             assert (test["p"] is None) == ("reason" in test)
             assert test["p"] is None or 0 < test["p"] <= 1
-    assert "nan" not in (tmp_path / "tables" / "recognition.csv").read_text(encoding="utf-8")
+    assert "nan" not in "".join(tables(findings).values())
+    assert html(results, paper, {}).count("<table>") >= 6
+
+
+@pytest.mark.parametrize("case", ["no answers", "everyone answers the same"])
+def test_degenerate_responses_give_a_whole_report(
+    case: str, paper: Protocol, write: Write, tmp_path: Path
+) -> None:
+    analyse(write(CASES[case]), everyone(paper), tmp_path)
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "figures" / "effects.svg").exists()
+
+
+def test_simulated_answers_are_labelled_in_everything_written(paper: Protocol, tmp_path: Path) -> None:
+    path = tmp_path / "r.csv"
+    path.write_text(
+        "participant,trial,stimulus,item,response,session\n"
+        + "".join(
+            f"{p},{1 + (int(p[1:]) + place) % 18},{s},{i},{r},simulated\n"
+            for place, s in enumerate(paper.stimuli)
+            for p, t, i, r in [*ratings(n=5), *choices(n=5)]
+            if t == s
+        ),
+        encoding="utf-8",
+    )
+    analyse(path, paper, tmp_path)
+    note = "Simulated answers, no data"
+    assert json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["data"] == "simulated"
+    report = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert f"<title>[{note}]" in report and 'class="nodata" role="note"' in report
+    assert "Order and carry-over" in report
+    written = [*(tmp_path / "tables").iterdir()]
+    assert len(written) == 5
+    for file in written:
+        assert note in file.read_text(encoding="utf-8"), file
+    for figure in (tmp_path / "figures").glob("*.svg"):
+        assert note in figure.read_text(encoding="utf-8"), figure
 
 
 @settings(max_examples=5)
@@ -99,3 +136,31 @@ def test_the_fast_are_left_out_by_their_median_time(paper: Protocol, tmp_path: P
     rules = paper.participants.model_copy(update={"exclude": Exclusions(faster_than="0.5 s")})
     flow = carry_out(read_responses(path, paper), paper.model_copy(update={"participants": rules})).flow
     assert [one.participant for one in flow.excluded] == ["P01"]
+
+
+def test_who_fails_attention_checks_is_left_out_and_the_report_says_what_changed(tmp_path: Path) -> None:
+    written = (PAPER / "protocol.yaml").read_text(encoding="utf-8")
+    check = "      - attention: {text: Choose no., options: {yes_: Yes, no_: No}, expected: no_}\n"
+    written = written.replace("          item_order: fixed\n", "          item_order: fixed\n" + check, 1)
+    written = written.replace(
+        "participants: {planned: 36}",
+        "participants: {planned: 36, exclude: {failed_attention: 2, incomplete: false}}",
+    ).replace("gestures/", f"{PAPER}/gestures/")
+    (tmp_path / "protocol.yaml").write_text(written, encoding="utf-8")
+    protocol = load_protocol(tmp_path)
+    checks = [(f"P{p:02}", s, "attention", "yes_" if p == 3 or (p == 1 and s == "joy") else "no_")
+              for p in range(6) for s in EMOTIONS]  # fmt: skip
+    path = tmp_path / "r.csv"
+    rows = [*ratings(n=6), *choices(n=6), *checks]
+    path.write_text(
+        "participant,stimulus,item,response\n" + "".join(",".join(row) + "\n" for row in rows),
+        encoding="utf-8",
+    )
+    responses = read_responses(path, protocol)
+    findings = carry_out(responses, protocol)
+    assert [(one.participant, one.rule) for one in findings.flow.excluded] == [
+        ("P03", "failed 2 or more attention checks")
+    ]
+    before = look_further(findings, responses, protocol).before
+    assert before["H1"].results["joy"].summary.n == 6
+    assert findings.outcomes["H1"].results["joy"].summary.n == 5

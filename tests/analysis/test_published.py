@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from analysis.apa import share, t_sentence
 from analysis.published import HIGHER, TABLE_II, N, counts_behind, verify
-from analysis.statcheck import check_text
+from analysis.statcheck import check_file, check_text
 from analysis.statistics.student_t import student_t
 from analysis.statistics.t_test import Alternative
 from stimuli.errors import InputError
@@ -105,3 +105,23 @@ def test_an_undefined_test_makes_no_claim_to_check() -> None:
     sentence = t_sentence(student_t(choices(34), choices(0)), None, 0.05)
     assert sentence == "t undefined: zero variance in both groups, df = 66, n = 34, n = 34"
     assert check_text(sentence) == []
+
+
+def test_a_verification_reads_as_sentences(table_ii: Path) -> None:
+    said = str(verify(table_ii, n=N))
+    assert "line 3, arc/low: shares add up to 2.00" in said
+    assert "follow: 19 against 10 of 34; t(66) = 2.26, p = .014, one-sided" in said
+    assert check_text(said) and all(one.consistent for one in check_text(said))
+
+
+def test_a_paper_is_read_line_by_line(tmp_path: Path) -> None:
+    paper = tmp_path / "paper.md"
+    paper.write_text(
+        "It held, t(66) = 2.26, p = .014, one-sided.\nSo did t(66) = 1.20, p = .01.\n", encoding="utf-8"
+    )
+    found = check_file(paper)
+    assert [one.line for one in found.faults] == [2]
+    assert str(found).splitlines()[0] == "2 reported tests recomputed, 1 inconsistent."
+    assert "the decision changes" in str(found)
+    with pytest.raises(InputError, match="cannot be read"):
+        check_file(tmp_path / "none.md")

@@ -12,7 +12,7 @@ import pytest
 from analysis.report import analyse
 from analysis.results import Results
 from study.protocol import Protocol
-from tests.analysis.conftest import PAPER, Write, choices, ratings
+from tests.analysis.conftest import PAPER, choices, ratings
 
 PRINTED = {  # the paper's Table II, in hundredths: high ↑, high ↓, low ↑, low ↓ (Arc/low ↑ mended)
     "arc": (94, 6, 0, 100),
@@ -107,17 +107,6 @@ def test_the_latex_table_has_the_published_cells(study: tuple[Results, Path]) ->
     assert "N = 34 per cell" in "".join(lines)
 
 
-def test_equal_responses_give_equal_bytes(
-    study: tuple[Results, Path], paper: Protocol, tmp_path: Path
-) -> None:
-    responses = study[0].findings.responses.path
-    analyse(responses, paper, tmp_path)
-    files = sorted(path.relative_to(tmp_path) for path in tmp_path.rglob("*") if path.is_file())
-    assert len(files) >= 13
-    for file in files:
-        assert (tmp_path / file).read_bytes() == (study[1] / file).read_bytes(), file
-
-
 def test_the_report_stands_alone(study: tuple[Results, Path]) -> None:
     report = (study[1] / "report.html").read_text(encoding="utf-8")
     assert "undefined: zero variance in both groups" in report
@@ -126,15 +115,57 @@ def test_the_report_stands_alone(study: tuple[Results, Path]) -> None:
         assert outside not in report
 
 
-def test_analysis_does_without_mujoco(write: Write, tmp_path: Path) -> None:
-    path = write([*ratings(n=4), *choices(n=4)])
-    out = tmp_path / "out"
+def test_equal_responses_give_equal_bytes_and_mujoco_is_not_needed(
+    study: tuple[Results, Path], tmp_path: Path
+) -> None:
     program = (
         "import sys; sys.modules['mujoco'] = None\n"
         "from pathlib import Path\n"
         "from analysis.report import analyse\n"
         "from study.protocol import load_protocol\n"
-        f"analyse(Path({str(path)!r}), load_protocol(Path({str(PAPER)!r})), Path({str(out)!r}))\n"
+        f"analyse(Path({str(study[0].findings.responses.path)!r}), load_protocol(Path({str(PAPER)!r})), "
+        f"Path({str(tmp_path)!r}))\n"
     )
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=120)
-    assert (out / "report.html").exists()
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=300)
+    files = sorted(path.relative_to(tmp_path) for path in tmp_path.rglob("*") if path.is_file())
+    assert {"results.json", "report.html", "report.pdf"} < {str(file) for file in files}
+    assert len(files) >= 20
+    for file in files:
+        assert (tmp_path / file).read_bytes() == (study[1] / file).read_bytes(), file
+
+
+@pytest.mark.parametrize("name", ["intensity", "recognition"])
+def test_the_latex_tables_compile(study: tuple[Results, Path], tmp_path: Path, name: str) -> None:
+    table = (study[1] / "tables" / f"{name}.tex").read_text(encoding="utf-8")
+    packages = next(line for line in table.splitlines() if line.startswith("% packages: "))
+    paper = tmp_path / "paper.tex"
+    paper.write_text(
+        "\\documentclass{article}\n"
+        f"\\usepackage{{{packages.removeprefix('% packages: ').replace(' ', '')}}}\n"
+        f"\\begin{{document}}\n{table}\\end{{document}}\n",
+        encoding="utf-8",
+    )
+    done = subprocess.run(
+        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", paper.name],
+        cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:]
+    assert "Overfull" not in done.stdout
+
+
+def test_the_pages_hold_the_main_story(study: tuple[Results, Path]) -> None:
+    pages = (study[1] / "report.pdf").read_bytes()
+    assert pages.startswith(b"%PDF") and 3 <= pages.count(b"/Type /Page ") <= 8
+
+
+def test_further_checks_are_in_the_results(written: dict) -> None:
+    further = written["further"]
+    assert written["data"] == "participant"
+    assert set(further["recognition"]["tests"]["joy"]) == {
+        "mean_ci95", "friedman", "permutation", "ordinal", "bayes", "equivalence", "hits"
+    }  # fmt: skip
+    assert sum(further["recognition"]["highest_rated"]["share"]["joy"].values()) == pytest.approx(34)
+    follow = further["intensity"]["tests"]["follow"]
+    assert follow["gee"]["effect"] == pytest.approx(1.1118575154181303)  # ln(19/15 · 24/10)
+    time = further["intensity"]["tests"]["time"]
+    assert time["gee"]["reason"] == "undefined: complete separation in a condition"

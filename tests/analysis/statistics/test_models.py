@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.stats import nct
 
 from analysis.statistics.bayes_factor import jzs_bayes_factor
 from analysis.statistics.bootstrap import bootstrap_mean
@@ -17,7 +18,10 @@ from analysis.statistics.cumulative_link_mixed import cumulative_link_mixed
 from analysis.statistics.equivalence import equivalence
 from analysis.statistics.gee_logistic import gee_logistic
 from analysis.statistics.label_permutation import label_permutation
+from analysis.statistics.logistic_mixed import logistic_mixed
+from analysis.statistics.noncentral_t import log_density
 from analysis.statistics.one_sample_t import one_sample_t
+from analysis.statistics.order_effects import carry_over, position_effect
 from analysis.statistics.student_t import student_t
 from tests.analysis.statistics.test_agreement import W
 from tests.analysis.statistics.test_t_tests import X
@@ -28,6 +32,14 @@ def ordinal() -> dict[str, np.ndarray]:
     with (Path(__file__).parent / "data" / "ordinal.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     return {name: np.array([int(row[name]) for row in rows]) for name in rows[0]}
+
+
+@pytest.fixture(scope="module")
+def holes(ordinal: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The same without every seventh row, by participant."""
+    order = np.argsort(ordinal["participant"], kind="stable")
+    kept = np.arange(1, order.size + 1) % 7 != 0
+    return {name: column[order][kept] for name, column in ordinal.items()}
 
 
 def test_the_cumulative_link_mixed_model_agrees_with_r(ordinal: dict[str, np.ndarray]) -> None:
@@ -61,6 +73,74 @@ def test_gee_agrees_with_r(ordinal: dict[str, np.ndarray]) -> None:
     assert (fit.effect, fit.se) == pytest.approx((0.276424917927147, 0.261688872351838), rel=1e-9)
     separated = gee_logistic([1, 1, 0, 1], [1, 1, 0, 0], [1, 2, 1, 2])
     assert separated.reason == "undefined: complete separation in a condition"
+
+
+def test_gee_agrees_with_r_where_answers_are_missing(holes: dict[str, np.ndarray]) -> None:
+    # R: geeglm(…, data = d[seq_len(nrow(d)) %% 7 != 0, ], control = geese.control(epsilon = 1e-13))
+    fit = gee_logistic(holes["rating"] >= 4, holes["condition"], holes["participant"], bias_reduced=False)
+    assert (fit.effect, fit.se) == pytest.approx((0.3146347704368489, 0.2860731510764124), rel=1e-9)
+    assert fit.p == pytest.approx(0.27140172501742088, rel=1e-9)
+    reduced = gee_logistic(holes["rating"] >= 4, holes["condition"], holes["participant"])
+    assert reduced.effect == fit.effect and reduced.se > fit.se  # fewer than 40 participants
+
+
+def test_the_logistic_mixed_model_agrees_with_r(
+    ordinal: dict[str, np.ndarray], holes: dict[str, np.ndarray]
+) -> None:
+    # R: lme4::glmer(rating >= 4 ~ condition + (1 | participant), d, binomial, nAGQ = 25)
+    fit = logistic_mixed(ordinal["rating"] >= 4, ordinal["condition"], ordinal["participant"])
+    assert (fit.intercept, fit.effect) == pytest.approx((-0.641066475977365, 0.3612988439573291), abs=1e-4)
+    assert fit.se == pytest.approx(0.3021130194272402, abs=1e-5)
+    assert fit.participant_sd == pytest.approx(1.222038166702902, abs=1e-4)
+    fit = logistic_mixed(holes["rating"] >= 4, holes["condition"], holes["participant"])
+    assert (fit.effect, fit.se) == pytest.approx((0.3952121819814631, 0.3236410612738055), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "x", "reason"),
+    [
+        ([], [], "undefined: one condition only"),
+        ([1, 0], [1, 1], "undefined: one condition only"),
+        ([1, 1, 0, 1], [1, 1, 0, 0], "undefined: complete separation in a condition"),
+        ([1, 0, 1, 0] * 3, [1, 1, 0, 0] * 3, None),
+    ],
+)
+def test_a_logistic_mixed_model_without_a_maximum_says_so(
+    chosen: list[int], x: list[int], reason: str | None
+) -> None:
+    fit = logistic_mixed(chosen, x, [i % 4 for i in range(len(chosen))])
+    assert fit.reason == reason or (reason is None and fit.reason and fit.effect is None)
+
+
+# a Latin square of four clips, twice; ratings by participant and clip
+PLACES = np.argsort([[0, 1, 3, 2], [1, 2, 0, 3], [2, 3, 1, 0], [3, 0, 2, 1]] * 2, axis=1) + 1
+SCORES = np.array([[4, 2, 5, 3], [3, 3, 4, 2], [5, 1, 4, 4], [2, 2, 3, 3], [4, 3, 5, 1], [3, 2, 4, 2],
+                   [5, 3, 3, 4], [4, 1, 5, 2]])  # fmt: skip
+
+
+def test_order_effects_agree_with_r() -> None:
+    # R: summary(lm(y ~ factor(p) + factor(s) + t))$coefficients["t", ]
+    place = position_effect(SCORES, PLACES)
+    assert (place.estimate, place.se) == pytest.approx((0.0125, 0.1587057024810388), rel=1e-9)
+    assert (place.t, place.df, place.p) == (
+        pytest.approx(0.07876213522632, rel=1e-9), 20, pytest.approx(0.93800453926, rel=1e-9)
+    )  # fmt: skip
+    # R: anova(lm(y ~ factor(p) + factor(s) + t), lm(y ~ … + factor(previous))) without first answers
+    before = carry_over(SCORES, PLACES)
+    assert before.df == (3, 9)
+    assert (before.f, before.p) == pytest.approx((0.5571428571428594, 0.6563670840186), rel=1e-9)
+
+
+def test_a_part_in_one_fixed_order_cannot_tell_place_from_clip() -> None:
+    found = position_effect(SCORES, np.tile([1, 2, 3, 4], (8, 1)))
+    assert found.reason == "undefined: places and stimuli go together"
+    assert carry_over(SCORES, np.tile([1, 2, 3, 4], (8, 1))).p is None
+
+
+@given(st.floats(-4, 20), st.floats(1, 80), st.floats(-4, 4))
+def test_the_noncentral_density_is_scipys(t: float, df: float, away: float) -> None:
+    found = log_density(t, df, np.array([t + away]))[0]
+    assert found == pytest.approx(nct.logpdf(t, df, t + away), abs=1e-6)
 
 
 def test_equivalence_agrees_with_r() -> None:
