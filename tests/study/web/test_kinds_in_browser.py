@@ -1,0 +1,140 @@
+"""Kinds of questions that need more than HTML, answered by keyboard in a real browser."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from study.export import responses_csv
+from study.protocol import Protocol, load_protocol
+from study.web.site import Site
+
+pytestmark = pytest.mark.xdist_group("browser")
+SIZES = {"wide": (1280, 800), "narrow": (390, 844)}
+
+ASKING = """
+study: asking
+title: Kinds of questions
+contact: lab@example.org
+robot: pepper
+seed: 1
+gestures: {wave: wave.yaml}
+demographics:
+  - select: {item: experience, text: Have you worked with robots?, options: [never, often]}
+parts:
+  one:
+    title: How does the robot move?
+    stimuli: {gesture: wave, modulations: [neutral]}
+    order: fixed
+    ask:
+      - slider:
+          text: The robot is …
+          items: {hurried: in a hurry, calm: calm}
+          ends: [not at all, extremely]
+      - rank: {text: What matters most?, items: [speed, size, smoothness]}
+      - attention: {text: Please choose “green”., options: [red, green], expected: green}
+      - differential: {set: godspeed animacy, points: 7}
+  experts:
+    if: {experience: often}
+    title: For experts
+    stimuli: {gesture: wave, modulations: [neutral], prefix: again_}
+    order: fixed
+    ask: [{text: {item: remark, text: Remarks?}}]
+participants: {planned: 2}
+"""
+
+
+@pytest.fixture
+def protocol(tmp_path: Path) -> Protocol:
+    folder = tmp_path / "asking"
+    folder.mkdir()
+    (folder / "protocol.yaml").write_text(ASKING, encoding="utf-8")
+    return load_protocol(folder)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"),
+            args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+        )
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(params=SIZES)
+def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
+    width, height = SIZES[request.param]
+    context = browser.new_context(locale="en-GB", viewport={"width": width, "height": height})
+    page = context.new_page()
+    faults: list[str] = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.set_default_timeout(15_000)
+    yield page
+    if folder := os.environ.get("SCREENSHOTS"):
+        page.screenshot(path=f"{folder}/kinds-{request.param}.png", full_page=True)
+    context.close()
+    assert faults == []
+
+
+def proceed(page: Page) -> None:
+    with page.expect_navigation():
+        page.get_by_role("button", name="Continue", exact=True).click()
+
+
+def begin(page: Page, address: str, experience: str) -> None:
+    page.goto(address)
+    page.get_by_role("button", name="Start").click()
+    page.get_by_role("checkbox").check()
+    page.get_by_role("button", name="I agree, continue").click()
+    page.get_by_label(experience).check()
+    proceed(page)
+    proceed(page)  # instructions
+    page.get_by_role("button", name="Play").click()
+    expect(page.get_by_label("in a hurry")).to_be_enabled()
+
+
+def test_sliders_ranks_and_checks_by_keyboard(page: Page, address: str, site: Site) -> None:
+    begin(page, address, "never")
+    page.get_by_role("button", name="Continue", exact=True).click()
+    expect(page.locator("#notice")).to_have_text("Please answer every question.")
+    expect(page.get_by_label("in a hurry")).to_be_focused()
+
+    page.keyboard.press("ArrowRight")  # from the middle, where no mark was
+    page.get_by_label("calm", exact=True).focus()
+    page.keyboard.press("Space")  # the middle itself
+    ranking = page.locator(".rank")
+    for item in ("speed", "size", "smoothness"):
+        ranking.get_by_role("radiogroup", name=item).get_by_role("radio", name="1").focus()
+        page.keyboard.press("Space")
+    assert ranking.locator("input:checked").count() == 1, "a rank has one holder"
+    for item, rank in (("smoothness", "2"), ("speed", "3"), ("size", "1")):
+        ranking.get_by_role("radiogroup", name=item).get_by_role("radio", name=rank).check()
+    page.get_by_label("green").check()
+    for row in page.get_by_role("radiogroup", name="Please rate").all():
+        row.get_by_role("radio").nth(4).check()
+    assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
+    if folder := os.environ.get("SCREENSHOTS"):
+        page.screenshot(path=f"{folder}/answered-{page.viewport_size['width']}.png", full_page=True)
+    proceed(page)
+    expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()
+
+    rows = csv.DictReader(io.StringIO(responses_csv(site.store, site.protocol)))
+    given = {row["item"]: row["response"] for row in rows}
+    assert given["hurried"] == "51" and given["calm"] == "50"
+    assert (given["size"], given["smoothness"], given["speed"]) == ("1", "2", "3")
+    assert given["attention"] == "green" and given["lively"] == "5"
+    assert site.store.session(next(iter(site.store.progress())).participant.name).completed_at is not None
+
+
+def test_a_part_for_some_is_shown_to_those(page: Page, address: str) -> None:
+    begin(page, address, "often")
+    expect(page.locator(".way label")).to_have_text("Page 3 of 5")
