@@ -102,7 +102,7 @@ def _posture(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
     """Where hands and head get, with x ahead, y to the left and z up from the robot's root."""
     positions = dict(robot.home) | {name: trajectory.joint(name) for name in trajectory.joints}
     poses = link_poses(robot.joints, positions)
-    described = {}
+    described: dict[str, float] = {}
     if robot.hands:
         shape = (len(trajectory.times), 4, 4)
         hands = np.stack([np.broadcast_to(poses[hand], shape)[:, :3, 3] for hand in robot.hands])

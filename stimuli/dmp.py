@@ -18,6 +18,7 @@ Here it is learned; `stimuli.course` says what a rollout is made of, `stimuli.sp
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -118,9 +119,20 @@ def _ridge(offsets: FloatArray, learning: Learning) -> FloatArray:
     A rollout is the spring's response to the goal plus, linearly, its responses R to each weight: so this is
     min_w |R w - (y - y_goal)|^2 + lambda |w|^2, in the very steps in which the primitive is rolled out.
     """
-    n = len(offsets) - 1
+    q, r, to_goal = _responses(len(offsets) - 1, learning)
+    rest = np.repeat(offsets[-1:], len(to_goal) - len(offsets), axis=0)
+    wanted = np.concatenate([offsets, rest]) - to_goal * offsets[-1]
+    weights: FloatArray = np.linalg.solve(r, q.T @ wanted)
+    return weights
+
+
+@lru_cache(maxsize=8)
+def _responses(n: int, learning: Learning) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Responses to the weights, penalised and factored as Q R, and to the goal (samples, 1), in n steps.
+
+    Kept, as gestures of one duration share them. Of Q only the rows of samples: those of the penalty meet 0.
+    """
     shares = np.arange(n + 1 + round(_REST_AFTER * n)) / n
-    rest = np.repeat(offsets[-1:], len(shares) - n - 1, axis=0)
     rate = learning.alpha / 2
     attractors = np.column_stack(
         [basis(1 - np.minimum(shares, 1), learning.n_weights) / rate**2, np.ones(len(shares))]
@@ -128,14 +140,9 @@ def _ridge(offsets: FloatArray, learning: Learning) -> FloatArray:
     step = step_of(learning.scheme, rate, 1 / n)
     responses = respond(attractors, np.zeros((2, attractors.shape[1])), step)[0]
     to_weights, to_goal = responses[:, :-1], responses[:, -1:]
-    wanted = np.concatenate([offsets, rest]) - to_goal * offsets[-1]
     penalty = np.sqrt(learning.regularisation * np.mean(np.sum(to_weights**2, axis=0)))
-    weights: FloatArray = np.linalg.lstsq(
-        np.concatenate([to_weights, penalty * np.eye(learning.n_weights)]),
-        np.concatenate([wanted, np.zeros((learning.n_weights, offsets.shape[1]))]),
-        rcond=None,
-    )[0]
-    return weights
+    q, r = np.linalg.qr(np.concatenate([to_weights, penalty * np.eye(learning.n_weights)]))
+    return q[: len(shares)], r, to_goal
 
 
 def _locally_weighted(offsets: FloatArray, learning: Learning) -> FloatArray:

@@ -71,7 +71,7 @@ PATHS: tuple[tuple[str, int, tuple[tuple[str, Parameters], ...]], ...] = (
 )
 
 
-def draw_paper_figures(out: Path) -> list[Path]:
+def draw_paper_figures(out: Path, dpi: int = 150) -> list[Path]:
     """Draw every figure into the folder `out`; returns the files."""
     out.mkdir(parents=True, exist_ok=True)
     drawn = {
@@ -80,7 +80,7 @@ def draw_paper_figures(out: Path) -> list[Path]:
         "principles_3d.png": principles_in_three_dimensions(),
     }
     for name, figure in drawn.items():
-        figure.savefig(out / name, dpi=150)
+        figure.savefig(out / name, dpi=dpi)
     return [out / name for name in drawn]
 
 

@@ -22,7 +22,7 @@ def roughness(y):
 
 
 def test_the_figures_are_drawn(tmp_path, robot, demonstrate):
-    for path in draw_paper_figures(tmp_path / "figures"):
+    for path in draw_paper_figures(tmp_path / "figures", dpi=20):
         assert path.read_bytes().startswith(b"\x89PNG")
     assert len(overview(demonstrate(), robot, "Hip").axes) == 9
 
