@@ -10,6 +10,9 @@ import json
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+
+from stimuli.export.bezier import bezier_keys
 from stimuli.trajectory import FloatArray, Trajectory, even_times
 
 APPROACH_S = 1.0  # granted to go from wherever the robot stands to the first pose
@@ -35,6 +38,36 @@ def angle_interpolation(trajectory: Trajectory, dt_s: float = 0.04) -> dict[str,
         "timeLists": [moments] * len(trajectory.joints),
         "isAbsolute": True,
     }
+
+
+def angle_interpolation_bezier(trajectory: Trajectory, dt_s: float = 0.2) -> dict[str, object]:
+    """Arguments for ALMotion.angleInterpolationBezier: names, and a list of times and control points per joint.
+
+    A control point is the angle and the handles before and after it, each [3, time, angle]: 3 says Bezier.
+    """
+    times, angles, slopes = bezier_keys(trajectory, dt_s)
+    before, after = np.full(len(times), -dt_s / 3), np.full(len(times), dt_s / 3)
+    before[0] = -APPROACH_S / 3
+    points = [
+        [
+            [angle, [3, early, early * slope], [3, late, late * slope]]
+            for angle, slope, early, late in zip(
+                along.tolist(), slope_along.tolist(), before.tolist(), after.tolist(), strict=True
+            )
+        ]
+        for along, slope_along in zip(angles.T, slopes.T, strict=True)
+    ]
+    moments = (times + APPROACH_S).tolist()
+    return {
+        "jointNames": list(trajectory.joints),
+        "times": [moments] * len(trajectory.joints),
+        "controlPoints": points,
+    }
+
+
+def write_angle_interpolation_bezier(trajectory: Trajectory, path: Path) -> None:
+    """Write the arguments of angleInterpolationBezier as JSON."""
+    path.write_text(json.dumps(angle_interpolation_bezier(trajectory)), encoding="utf-8")
 
 
 def write_angle_interpolation(trajectory: Trajectory, path: Path) -> None:

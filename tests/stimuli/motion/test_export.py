@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 import yaml
 
-from stimuli.export.naoqi import APPROACH_S, send, write_angle_interpolation
+from stimuli.export.naoqi import (
+    APPROACH_S,
+    send,
+    write_angle_interpolation,
+    write_angle_interpolation_bezier,
+)
+from stimuli.export.qianim import write_qianim
 from stimuli.export.ros import write_joint_trajectory
 from stimuli.export.table import write_csv
 from stimuli.gestures import read_gesture
@@ -20,6 +26,34 @@ def test_csv_reads_back_the_same(tmp_path, robot, demonstrate):
     again = read_gesture(tmp_path / "a.csv", robot)
     assert again.joints == shown.joints
     assert np.abs(again.positions - shown.positions).max() < 1e-12
+
+
+def test_an_animation_reads_back_the_same(tmp_path, robot, demonstrate):
+    shown = demonstrate(1)
+    write_qianim(shown, robot, tmp_path / "a.qianim")
+    again = read_gesture(tmp_path / "a.qianim", robot)
+    assert np.abs(again.at(shown.times) - shown.positions).max() < 1e-3
+    write_qianim(again, robot, tmp_path / "b.qianim")
+    twice = read_gesture(tmp_path / "b.qianim", robot)
+    assert np.abs(twice.at(again.times) - again.positions).max() < 1e-3
+
+
+def test_bezier_control_points_follow_the_motion(tmp_path, demonstrate):
+    """Each piece, by the Bezier formula at its middle, is where the motion is."""
+    shown = demonstrate(1)
+    write_angle_interpolation_bezier(shown, tmp_path / "a.json")
+    names, times, points = json.loads((tmp_path / "a.json").read_text()).values()
+    assert names == list(shown.joints)
+    for column in range(len(names)):
+        moments = np.array(times[column]) - APPROACH_S
+        for at in range(len(moments) - 1):
+            (angle, _, after), (following, before, _) = points[column][at : at + 2]
+            assert after[0] == before[0] == 3
+            assert after[1] == pytest.approx(-before[1] if at else after[1])
+            middle = (angle + 3 * (angle + after[2]) + 3 * (following + before[2]) + following) / 8
+            moment = (moments[at] + moments[at + 1]) / 2
+            expected = np.interp(moment, shown.times, shown.positions[:, column])
+            assert middle == pytest.approx(expected, abs=6e-3)
 
 
 def test_ros_gets_every_sample_with_its_time(tmp_path, demonstrate):
