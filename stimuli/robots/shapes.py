@@ -12,7 +12,6 @@ from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from stimuli.robots.model import Vector
 from stimuli.trajectory import FloatArray
@@ -36,10 +35,14 @@ class Mesh:
 
     def moved(self, xyz: Sequence[float] | FloatArray = (0, 0, 0), rpy: Sequence[float] = (0, 0, 0)) -> Mesh:
         """Turned, then shifted."""
+        from scipy.spatial.transform import Rotation  # late: slow to import, and only bodies need it
+
         return Mesh(Rotation.from_euler("xyz", rpy).apply(self.vertices) + np.asarray(xyz, float), self.faces)
 
     def facing(self, normal: FloatArray, xyz: FloatArray) -> Mesh:
         """Turned so that z points along `normal`, then shifted."""
+        from scipy.spatial.transform import Rotation
+
         turn, _ = Rotation.align_vectors([normal], [[0, 0, 1]])
         return Mesh(turn.apply(self.vertices) + xyz, self.faces)
 
@@ -75,7 +78,7 @@ class Loft:
 
     @cached_property
     def _table(self) -> tuple[FloatArray, FloatArray]:
-        from scipy.interpolate import PchipInterpolator  # late: slow to import, and only bodies need it
+        from scipy.interpolate import PchipInterpolator
         from scipy.ndimage import gaussian_filter1d
 
         rows = np.array(self.sections, float)

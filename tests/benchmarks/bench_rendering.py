@@ -77,7 +77,7 @@ def _run(name: str, wanted: Path) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as out:
         start = time.perf_counter()
         command = [sys.executable, "-m", "tests.benchmarks.bench_rendering", name, str(wanted), out]
-        process = subprocess.Popen(command)
+        process = subprocess.Popen(command, env={**os.environ, "MUJOCO_GL": "egl"})
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode:
