@@ -30,6 +30,9 @@ PRESETS: Mapping[str, tuple[float, float]] = {
 """Lower and upper edge of the picture at the robot's distance, in heights of the robot; closest first."""
 
 FOVY_DEG = 24.0
+FORESHORTENING = (
+    0.17  # how much lower the near edge of a foot appears, in its radii, for the camera's nearness
+)
 BACKDROP = (0.82, 0.82, 0.82)
 SHADOW = "contact_shadow"  # the name of its patch of floor
 
@@ -47,8 +50,11 @@ def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
     height_m = extent(bare, robot)[1][2]
     add_light(spec)
     add_cove(spec)
-    add_contact_shadow(spec, find_foot(bare, robot))
-    for name, (bottom, top) in PRESETS.items():
+    foot = find_foot(bare, robot)
+    add_contact_shadow(spec, foot)
+    near = foot.radius * (np.sin(np.radians(robot.view.elevation_deg)) + FORESHORTENING) / height_m
+    for name, (lower, top) in PRESETS.items():
+        bottom = min(lower, -near) if lower < 0 else lower
         tall = height_m * (top - bottom)
         wide = tall if name == "head" else height_m * 1.2
         shown = max(tall, wide * height / width)
