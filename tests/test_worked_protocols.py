@@ -50,7 +50,7 @@ def test_groups_are_compared_on_the_means_of_series(gone_through: Path) -> None:
         for row in rows
     }
     assert len(seen) == 12
-    assert sorted(map(sorted, seen.values())) == [["lively"]] * 6 + [["stiff"]] * 6
+    assert sorted(map(sorted, seen.values())) == [["fluent"]] * 6 + [["stiff"]] * 6
     found = results(gone_through)
     assert found["participants"]["excluded"] == []
     compared = found["impression"]["animacy"]
@@ -59,7 +59,7 @@ def test_groups_are_compared_on_the_means_of_series(gone_through: Path) -> None:
         for r in rows
         if r["item"] in {"alive", "lively", "organic", "lifelike_2", "interactive", "responsive"}
     ]
-    for group in ("lively", "stiff"):
+    for group in ("fluent", "stiff"):
         points = [int(row["response"]) for row in animacy if row["stimulus"] == group]
         assert compared["summaries"][group]["mean"] == pytest.approx(sum(points) / len(points))
     assert compared["student"]["df"] == 10

@@ -142,7 +142,7 @@ def test_rosas_has_its_three_scales_of_six_on_nine_points():
     names = list(question.series.values())
     assert {name: names.count(name) for name in names} == {"warmth": 6, "competence": 6, "discomfort": 6}
     assert list(question.values) == [str(point) for point in range(1, 10)]
-    answers = dict.fromkeys(question.items, "9") | {"scary": "3"}
+    answers = dict.fromkeys(question.items, "9") | {"rosas_scary": "3"}
     assert question.scores(answers) == {"warmth": 9, "competence": 9, "discomfort": 8}
 
 
