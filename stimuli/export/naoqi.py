@@ -41,7 +41,7 @@ def angle_interpolation(trajectory: Trajectory, dt_s: float = 0.04) -> dict[str,
 
 
 def angle_interpolation_bezier(trajectory: Trajectory, dt_s: float = 0.2) -> dict[str, object]:
-    """Arguments for ALMotion.angleInterpolationBezier: names, and a list of times and control points per joint.
+    """Arguments for ALMotion.angleInterpolationBezier: names; times and control points, a list per joint.
 
     A control point is the angle and the handles before and after it, each [3, time, angle]: 3 says Bezier.
     """
