@@ -13,6 +13,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from enum import Enum
+from functools import lru_cache
 from itertools import groupby
 from typing import Any, Literal
 from uuid import UUID
@@ -99,6 +100,7 @@ def plan_sha256(plan: Plan) -> str:
     return hashlib.sha256(plan_json(plan).encode()).hexdigest()
 
 
+@lru_cache(maxsize=1024)
 def read_plan(text: str) -> Plan:
     """The plan from its canonical JSON."""
     fields: dict[str, Any] = json.loads(text)

@@ -34,6 +34,16 @@ class Progress:
 
 
 @dataclass(frozen=True)
+class Visit:
+    """All that is known of whoever asks for a page or sends one, read at one moment."""
+
+    participant: Participant
+    session: Session | None
+    answered: dict[str, UUID]  # steps already answered, and the submissions that answered them
+    phase: Phase
+
+
+@dataclass(frozen=True)
 class Withdrawal:
     """The dated note that stays when a participant's data are deleted."""
 
@@ -148,15 +158,21 @@ class Store:
             db.execute(insert(sessions).values(values))
             return session
 
+    def visit(self, token_sha256: str) -> Visit | None:
+        """Whoever has the link of that token, how far they have come, and whether the study is open."""
+        with self._read.begin() as db:
+            known = select(participants).where(participants.c.token_sha256 == token_sha256)
+            row = db.execute(known).mappings().first()
+            if row is None:
+                return None
+            session = _session(db, row["name"])
+            answered = _answered(db, row["name"]) if session else {}
+            return Visit(Participant(**row), session, answered, _phase(db))
+
     def session(self, participant: str) -> Session | None:
         """The participant's session, if they have consented."""
         with self._read.begin() as db:
             return _session(db, participant)
-
-    def answered(self, participant: str) -> dict[str, UUID]:
-        """Steps already answered, and the submissions that answered them."""
-        with self._read.begin() as db:
-            return _answered(db, participant)
 
     def show_page(self, participant: str, step: str, *, now: datetime) -> datetime:
         """Note that a page is handed out; return when it first was."""
@@ -289,8 +305,8 @@ class Store:
     @property
     def phase(self) -> Phase:
         """Open unless the experimenter paused or closed the study."""
-        last = self.events(get_args(Phase), most=1)
-        return cast("Phase", last[0].name) if last else "open"
+        with self._read.begin() as db:
+            return _phase(db)
 
     def enter_phase(self, phase: Phase, *, now: datetime) -> None:
         """Pause, resume or close the study; it stays so when the server starts again."""
@@ -319,6 +335,12 @@ class Store:
         with self._read.begin() as db:
             columns = (withdrawals.c.participant, withdrawals.c.at, withdrawals.c.responses)
             return [Withdrawal(*row) for row in db.execute(select(*columns).order_by(withdrawals.c.number))]
+
+
+def _phase(db: Connection) -> Phase:
+    entered = select(events.c.name).where(events.c.participant.is_(None), events.c.name.in_(get_args(Phase)))
+    last = db.execute(entered.order_by(events.c.number.desc()).limit(1)).scalar()
+    return cast("Phase", last or "open")
 
 
 def _read_contact(row: RowMapping | None) -> Contact:

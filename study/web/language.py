@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 from babel import Locale
@@ -25,7 +25,7 @@ class Language:
         """The text in this language, or in English where it has none."""
         return self.texts.get(english, english)
 
-    @property
+    @cached_property
     def name(self) -> str:
         """Its own name for itself: Deutsch."""
         return (Locale.parse(self.code, sep="-").get_display_name() or self.code).capitalize()

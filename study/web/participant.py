@@ -21,7 +21,7 @@ from study.web.language import load_language
 from study.web.limits import count_wrong_guess, limits_of, require, require_guesses_left
 from study.web.pages import render
 from study.web.site import Clip, Site, site_of
-from study.web.visitor import forget, language_of, participant_of, speaking, to
+from study.web.visitor import forget, language_of, participant_of, speaking, to, visit_of
 
 router = APIRouter()
 
@@ -68,18 +68,17 @@ def _asked(site: Site, step: Step) -> list[tuple[Question, tuple[str, ...], tupl
 def study(request: Request) -> Response:
     """The page that is due, whatever was open before."""
     site, language = site_of(request), language_of(request)
-    participant = participant_of(request)
-    if participant is None:
+    visit = visit_of(request)
+    if visit is None:
         return to(request, "entry")
-    session, phase = site.store.session(participant.name), site.store.phase
+    participant, session, phase = visit.participant, visit.session, visit.phase
     if phase == "paused" or (phase == "closed" and session is None):
         return _not_now(request, participant, language, paused=phase == "paused")
     if session is None:
         page = render(request, "consent.html", language=language, kind=participant.kind)
         return speaking(page, language)
     pages = steps_of(site, session)
-    answered = site.store.answered(participant.name)
-    step = next_step(pages, answered)
+    step = next_step(pages, visit.answered)
     if step is None:
         return render(
             request,
@@ -146,14 +145,13 @@ def consent(request: Request, agreed: Annotated[str, Form()], language: Annotate
 @router.post("/study/answers", name="answers")
 def answers(request: Request, submission: Submission) -> JSONResponse:
     """Store an answered page. 200: it is on disk. 409: another page is due. 422: this cannot be an answer."""
-    site, participant = site_of(request), participant_of(request)
-    session = site.store.session(participant.name) if participant else None
-    if participant is None or session is None:
+    site, visit = site_of(request), visit_of(request)
+    if visit is None or visit.session is None:
         return JSONResponse({"reason": "no session"}, 409)
+    participant, session = visit.participant, visit.session
     require(limits_of(request).sendings, participant.name)
     pages = steps_of(site, session, submission.values)
-    answered = site.store.answered(participant.name)
-    verdict = judge(submission.id, submission.step, pages=pages, answered=answered)
+    verdict = judge(submission.id, submission.step, pages=pages, answered=visit.answered)
     if verdict is Verdict.STORE:
         due = next(page for page in pages if page.key == submission.step)
         if fault := _fault(site, participant, due, submission):

@@ -6,6 +6,7 @@ from fastapi import Request
 from fastapi.responses import RedirectResponse, Response
 
 from study.participants import Participant, token_sha256
+from study.storage.store import Visit
 from study.web.language import preferred
 from study.web.site import site_of
 
@@ -27,6 +28,12 @@ def participant_of(request: Request) -> Participant | None:
     """Whose cookie came with the request."""
     token = request.cookies.get(TOKEN)
     return site_of(request).store.participant(token_sha256(token)) if token else None
+
+
+def visit_of(request: Request) -> Visit | None:
+    """Whose cookie came with the request, and how far they have come."""
+    token = request.cookies.get(TOKEN)
+    return site_of(request).store.visit(token_sha256(token)) if token else None
 
 
 def to(request: Request, name: str) -> RedirectResponse:
