@@ -38,6 +38,13 @@ def test_the_head_heads_elsewhere_while_it_nods() -> None:
     assert abs(yaw[-1] + 24) < 1
 
 
+def test_the_arm_goes_behind_the_body_before_it_is_raised() -> None:
+    spec = specs(load_protocol(FOLDER))["arm_raise_anticipation"]
+    pitch = np.degrees(generate(spec, load_robot("pepper", FOLDER)).trajectory.joint("RShoulderPitch"))
+    assert pitch.max() > pitch[0] + 20
+    assert pitch.argmax() < pitch.argmin()
+
+
 def test_a_robot_nobody_knows_is_named_at_the_gesture_that_asks_for_it(tmp_path: Path) -> None:
     text = (FOLDER / "protocol.yaml").read_text(encoding="utf-8")
     (tmp_path / "protocol.yaml").write_text(text.replace("robot: iiwa14", "robot: iiwa15"), encoding="utf-8")
