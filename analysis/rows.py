@@ -35,7 +35,8 @@ class Rows:
 
     def names(self, column: str) -> list[str]:
         """Every value that occurs in a column."""
-        return [str(name) for name in self.frame[column].cat.categories]
+        names: list[str] = self.frame[column].cat.categories.astype(str).tolist()
+        return names
 
     def codes(self, column: str, places: Mapping[str, int], unknown: int = MISSING) -> NDArray[np.int64]:
         """The place of each row's value, (rows,)."""
