@@ -43,7 +43,7 @@ def _hypotheses(protocol: Protocol) -> Iterator[str]:
     yield from ("", "## Hypotheses", "")
     hypotheses = protocol.analysis.hypotheses
     if not hypotheses:
-        yield "None; this study is exploratory."
+        yield "No hypothesis is declared; this study is exploratory."
     for name, hypothesis in hypotheses.items():
         yield f"- **{name}.** {hypothesis.text or stated(hypothesis)}"
 
@@ -133,7 +133,10 @@ def _parameters(values: Mapping[str, Any]) -> str:
     words = []
     for name, value in values.items():
         if isinstance(value, Mapping):
-            words += [f"{inner} = {number:.4g}" for inner, number in value.items()]
+            words += [
+                f"{inner}: ({_parameters(of)})" if isinstance(of, Mapping) else _parameters({inner: of})
+                for inner, of in value.items()
+            ]
         elif value not in ([], None):
             words.append(f"{name} = {value:.4g}" if isinstance(value, float) else f"{name} = {value}")
     return ", ".join(words)

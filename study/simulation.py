@@ -26,6 +26,8 @@ from study.export import export_responses
 from study.protocol import Protocol, Stimulus
 from study.protocol.parts import series_of
 from study.questions import Question
+from study.questions.scale import Scale
+from study.questions.slider import Slider
 from study.storage import open_store
 from study.web.app import create_app
 from study.web.credentials import new_credentials, new_password
@@ -155,18 +157,17 @@ def _leaning(
     rng: random.Random,
 ) -> dict[str, str]:
     """Ratings moved by as many standard deviations as the effect between two conditions that are compared."""
-    options = tuple(question.values or ())
+    if not isinstance(question, Scale | Slider):
+        return answers
+    options = tuple(question.values)
     series = series_of((question,))
     for hypothesis in protocol.analysis.hypotheses.values():
         condition = stimulus.level or stimulus.name
-        if (
-            hypothesis.part != stimulus.part
-            or hypothesis.outcome
-            or condition not in (hypothesis.compare or ())
-        ):
+        compared = hypothesis.compare
+        if compared is None or hypothesis.part != stimulus.part or condition not in compared:
             continue
         asked = hypothesis.item or next(iter(question.items))
-        up = (condition == (hypothesis.compare or ())[0]) != (hypothesis.alternative == "less")
+        up = (condition == compared[0]) != (hypothesis.alternative == "less")
         step = (1 if up else -1) * effect / 2 * (len(options) - 1) / 4
         for item in series.get(asked, (asked,)):
             if item in answers:

@@ -135,7 +135,7 @@ def _hypotheses(protocol: Protocol) -> Iterator[Contradiction]:
         items = [item for question in part.ask for item in question.items]
         values = [value for question in part.ask for value in question.values or ()]
         stimuli = protocol.stimuli_of(hypothesis.part)
-        conditions = dict.fromkeys(name for s in stimuli if (name := s.level or s.name))
+        conditions = dict.fromkeys(condition for s in stimuli if (condition := s.level or s.name))
         scored = [*items, *series_of(part.ask)]
         if hypothesis.item is not None:
             yield from _unknown((*here, "item"), hypothesis.item, scored, f"item of {hypothesis.part}")
