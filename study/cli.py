@@ -481,7 +481,6 @@ def _load(path: Path) -> Protocol:
 def _render(protocol: Protocol, folder: Path, workers: int | None, scheduler: str | None = None) -> Manifest:
     from stimuli.library import Progress as Rendered
     from stimuli.library import render_missing
-    from stimuli.manifest import Manifest
     from stimuli.robots import load_robot
     from study.specs import specs
 
@@ -502,8 +501,9 @@ def _render(protocol: Protocol, folder: Path, workers: int | None, scheduler: st
                 progress=told,
             )
     except KeyboardInterrupt:
-        there = len(Manifest.load(folder).clips)
-        console.print(f"Stopped. {there} of {len(wanted)} clips are whole; the next run goes on from there.")
+        console.print(
+            "Stopped. Finished clips are kept, nothing is half written; the next run goes on from there."
+        )
         raise typer.Exit(130) from None
 
 
