@@ -25,7 +25,9 @@ def main(names: list[str]) -> int:
     for name in names or known:
         for row in importlib.import_module(f"tests.benchmarks.bench_{name}").rows():
             goal = f"{'≤' if row.at_most else '≥'} {row.reach:g}×"
-            table.add_row(row.what, row.peer, f"{row.ratio:.3g}×", goal, "✓" if row.reached else "✗", row.detail)
+            table.add_row(
+                row.what, row.peer, f"{row.ratio:.3g}×", goal, "✓" if row.reached else "✗", row.detail
+            )
             missed += not row.reached
     Console(width=160).print(table)
     return 1 if missed else 0
