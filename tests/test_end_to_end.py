@@ -1,8 +1,10 @@
-"""One small study, all the way: protocol, motion, frames, videos, orders, sessions, responses, statistics, report."""
+"""One small study, all the way from its protocol over videos, orders, sessions and responses to the report."""
 
 import csv
 import json
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import av
@@ -27,13 +29,13 @@ parts:
     title: What does the robot express?
     stimuli: {gesture: wave, modulations: [joy, sadness]}
     order: williams
-    ask: [{rate: {text: The robot expresses, items: {joy: Joy, sadness: Sadness}, points: 5, ends: [no, yes]}}]
+    ask: [{rate: {text: It expresses, items: {joy: Joy, sadness: Sadness}, points: 5, ends: [no, yes]}}]
   intensity:
     title: How intense is it?
     stimuli: {gesture: wave, levels: [time]}
     reference: medium
     order: {principles: williams, levels: balanced}
-    ask: [{choose: {item: intensity, text: It is of, options: {lower: lower, higher: higher}, sides: balanced}}]
+    ask: [{choose: {item: intensity, text: It is, options: {lower: lower, higher: higher}, sides: balanced}}]
 participants: {planned: 8}
 analysis:
   H1: {part: recognition, test: one-sample t, of: target, against: midpoint, alternative: greater}
@@ -85,13 +87,9 @@ def test_a_protocol_becomes_a_report(small: Path) -> None:
 
 
 def test_a_fault_of_the_user_is_one_message_without_a_traceback(tmp_path: Path) -> None:
-    import subprocess
-    import sys
-
-    (tmp_path / "protocol.yaml").write_text(PROTOCOL.replace("robot: pepper", "robot: peper"), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-m", "study.cli", "render", tmp_path], capture_output=True, text=True, check=False
-    )
+    (tmp_path / "protocol.yaml").write_text(PROTOCOL.replace("robot: pepper", "robot: peper"))
+    command = [sys.executable, "-m", "study.cli", "render", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "peper" in done.stderr and "pepper" in done.stderr
     assert "Traceback" not in done.stderr

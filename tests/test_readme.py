@@ -22,9 +22,8 @@ def commands(block: str) -> list[list[str]]:
 
 
 def study(arguments: list[str], folder: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "study.cli", *arguments], cwd=folder, capture_output=True, text=True, check=False
-    )
+    command = [sys.executable, "-m", "study.cli", *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"study {' '.join(arguments)}\n{done.stdout}\n{done.stderr}"
 
 
@@ -63,6 +62,6 @@ def test_the_whole_protocol_shown_is_good(tmp_path: Path) -> None:
 @pytest.mark.parametrize("row", re.findall(r"^\| `study (.*?)` \|", README, re.MULTILINE))
 def test_each_command_of_the_table_runs(row: str, tmp_path: Path) -> None:
     table = tmp_path / "TABLE.csv"
-    table.write_text("principle,level,higher,lower\ntime,high,1.00,0.00\ntime,low,0.29,0.71\n", encoding="utf-8")
+    table.write_text("principle,level,higher,lower\ntime,high,1.00,0.00\ntime,low,0.29,0.71\n")
     places = {"P": str(ROOT / "protocols/hielscher2025"), "TABLE.csv": str(table)}
     study([places.get(word, word) for word in row.split()], tmp_path)

@@ -1,4 +1,4 @@
-"""How a benchmark is run: ours and the peer's in turn, in one process or as processes, and the median of ratios."""
+"""How a benchmark is run: ours and the peer's in turn, and the median of the ratios."""
 
 from __future__ import annotations
 
