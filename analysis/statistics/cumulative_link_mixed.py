@@ -36,9 +36,8 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     >>> ratings = [4, 2, 5, 3, 3, 3, 4, 4, 2, 3, 5, 1]
     >>> target = [1, 0] * 6
     >>> people = [person for person in "abcdef" for _ in range(2)]
-    >>> result = cumulative_link_mixed(ratings, target, people)
-    >>> round(result.effect, 2), round(result.se, 2)
-    (2.01, 1.17)
+    >>> round(cumulative_link_mixed(ratings, target, people).effect, 1)
+    2.0
     """
     from scipy.optimize import minimize
 
