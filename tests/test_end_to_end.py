@@ -1,4 +1,4 @@
-"""One small study, all the way from its protocol over videos, orders, sessions and responses to the report."""
+"""One small study, all the way from its protocol over videos, orders and sessions to the report."""
 
 import csv
 import json
