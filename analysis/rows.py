@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,7 +79,17 @@ def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str]) -> 
     frame = read_columns(
         path, {name: "str" if ours == "rt_ms" else "category" for name, ours in theirs.items()}
     )
+    numbers = [
+        name for name, ours in theirs.items() if ours != "response" and _taken_for_numbers(frame[name])
+    ]
+    if numbers:  # names are texts: 01 and 1 are two participants
+        frame[numbers] = read_columns(path, dict.fromkeys(numbers, "str")).astype("category")
     return Rows(path, frame.rename(columns=theirs))
+
+
+def _taken_for_numbers(column: pd.Series[Any]) -> bool:
+    """Whether pandas read a column of categories, all of which look like numbers, as numbers."""
+    return column.dtype == "category" and column.cat.categories.dtype.kind in "iufb"
 
 
 def read_columns(path: Path, types: Mapping[str, str]) -> pd.DataFrame:

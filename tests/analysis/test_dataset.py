@@ -39,6 +39,12 @@ def test_every_rating_reads_back(paper: Protocol, write: Write) -> None:
         assert answers.ratings[place] == float(response)
 
 
+def test_participants_are_texts_even_where_they_look_like_numbers(paper: Protocol, write: Write) -> None:
+    rows = [("01", "joy", "joy", "4"), ("1", "joy", "joy", "2"), ("1.0", "joy", "joy", "5")]
+    answers = read_responses(write(rows), paper).answers("recognition")
+    assert sorted(answers.participants) == ["01", "1", "1.0"]
+
+
 def test_levels_are_told_apart_by_name_not_by_appearance(paper: Protocol, write: Write) -> None:
     for rows in (choices(), choices()[::-1]):
         answers = read_responses(write([*ratings(), *rows]), paper).answers("intensity")
