@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.backends.backend_pdf import PdfPages
     from matplotlib.figure import Figure
 
-WIDTH_IN, HEIGHT_IN, MARGIN_IN = 8.27, 11.69, 0.85
+WIDTH_IN, HEIGHT_IN, MARGIN_IN = 210 / 25.4, 297 / 25.4, 0.85  # A4
 TEXT_IN = WIDTH_IN - 2 * MARGIN_IN
 LEADING = 1.42  # line height, in font sizes
 FIGURE_IN = 5.2  # width of a figure on a page

@@ -14,12 +14,14 @@ from stimuli.library import render_missing
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec
 
+pytestmark = pytest.mark.xdist_group("cluster")
+
 MakeSpec = Callable[..., StimulusSpec]
 
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as running:
+    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as running:
         yield running.scheduler_address
 
 
