@@ -1,4 +1,6 @@
-"""What every test shares: one hypothesis profile, deterministic and without deadlines (CI machines stall)."""
+"""What every test shares: one hypothesis profile without deadlines, and a Ctrl-C that is heard."""
+
+import signal
 
 from hypothesis import HealthCheck, settings
 
@@ -11,3 +13,6 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("study")
+
+# A run in the background inherits that Ctrl-C is ignored, and so would the programs that tests interrupt.
+signal.signal(signal.SIGINT, signal.default_int_handler)
