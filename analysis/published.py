@@ -105,7 +105,9 @@ class Verification:
                     if tests
                     else []
                 ),
-                f"They would also fit n = {sizes}." if sizes else f"No other n up to {2 * self.n} fits them.",
+                f"The possible rows would also fit n = {sizes}."
+                if sizes
+                else f"There is no other n up to {2 * self.n} that fits possible rows.",
             ]
         )
 
@@ -135,7 +137,9 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
     bad = {fault.line for fault in faults}
     good = [row for row in rows if row.line not in bad]
     fitting = [
-        size for size in range(2, 2 * n + 1) if size != n and not any(_faults(row, size) for row in good)
+        size
+        for size in range(2, 2 * n + 1)
+        if good and size != n and not any(_faults(row, size) for row in good)
     ]
     return Verification(
         n=n,
