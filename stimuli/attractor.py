@@ -5,76 +5,40 @@ Positions are offsets from the start; time is counted in shares of the duration.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
 from functools import lru_cache
 
 import numpy as np
 
 from stimuli.course import Course
-from stimuli.gates import Gates
-from stimuli.robots.model import Relation
-from stimuli.trajectory import FloatArray, IndexArray
+from stimuli.trajectory import FloatArray
 
 ROUNDING = 1e-9  # share of the duration by which rounding may miss a moment at which something changes
+_REACH = 6  # centres; Gaussians further away are worth less than exp(-36), which is rounding
+_COUNT = np.arange(1000.0)
 _RECOVERY = 0.05  # of the duration, in which a bent clock finds back to an even pace after the end
-
-
-@dataclass(frozen=True)
-class Group:
-    """Joints that can be carried out at once, or gates through which others' motion then passes."""
-
-    depth: int  # of their sources' sources: 0 where no other joint acts on them
-    gain: float  # in Anticipation's window
-    mirror: float
-    columns: IndexArray
-    gates: Gates | None = None
-
-    @property
-    def anticipates(self) -> bool:
-        """Whether these joints move differently in the window."""
-        return (self.gain, self.mirror) != (1.0, 1.0)
-
-
-def groups(course: Course, *, gated: bool) -> list[Group]:
-    """All joints in groups that move alike, and, where `gated`, the gates; sources before their targets."""
-    d, gates = len(course.joints), course.gated if gated else ()
-    depths = _depths(course, gates)
-    gain = np.ones(d) if course.gain is None else course.gain
-    mirror = np.ones(d) if course.mirror is None else course.mirror
-    kinds = list(zip(depths[:d].tolist(), gain.tolist(), mirror.tolist(), strict=True))
-    made = [Group(*kind, np.flatnonzero([kind == other for other in kinds])) for kind in set(kinds)]
-    for depth in set(depths[d:].tolist()):
-        columns = np.flatnonzero(depths[d:] == depth)
-        through = Gates.of([gates[column] for column in columns], course.joints)
-        made.append(Group(depth, 1.0, 1.0, d + columns, through))
-    return sorted(made, key=lambda group: (group.depth, group.gain, group.mirror, group.gates is not None))
-
-
-def _depths(course: Course, gates: tuple[Relation, ...]) -> IndexArray:
-    """How long the longest chain of sources is that leads to each joint, then to each gate."""
-    d = len(course.joints)
-    acts = np.zeros((d + len(gates), d + len(gates)), dtype=bool)
-    if course.is_coupled:
-        acts[:d] = (course.displaced != 0) | (course.dragging != 0)
-    for row, relation in enumerate(gates, d):
-        opened_by = (relation.source, *(within.joint for within in relation.while_))
-        acts[row, [course.joints.index(joint) for joint in opened_by]] = True
-    depths = np.zeros(len(acts), dtype=np.int64)
-    while acts.any():
-        deeper = np.max(np.where(acts, depths + 1, 0), axis=1)
-        if np.array_equal(deeper, depths):
-            break
-        depths = deeper
-    return depths
 
 
 def attractor(course: Course, shares: FloatArray) -> FloatArray:
     """Where the springs are drawn to at these shares of time, (n, d), as offsets from the start."""
     x = phase(course, shares)
-    forcing = course.exaggeration * (basis(x, len(course.weights)) @ course.weights)
+    forcing = basis(x, len(course.weights)) @ course.causes[:-1]
     if course.around == "straight":
         forcing += (1 - course.exaggeration) * _straight(course, 1 - x)
     pull: FloatArray = filtered_goal(course, shares) - course.start + forcing / course.rate**2
+    return pull
+
+
+def attractor_at(course: Course, share: float) -> FloatArray:
+    """The same at one moment, (d,), from the Gaussians that are near enough to matter."""
+    if not course.is_linear:
+        pull: FloatArray = attractor(course, np.array([share]))[0]
+        return pull
+    x, causes = phase_at(course, share), course.causes
+    at = (1.0 - x) * (len(causes) - 2)  # counted in centres
+    near = slice(max(0, math.ceil(at) - _REACH), min(len(causes) - 1, math.floor(at) + _REACH + 1))
+    bumps = np.exp(-np.square(_COUNT[near] - at))
+    pull = causes[-1] + np.dot(bumps, causes[near]) * (x / bumps.sum() / course.rate**2)
     return pull
 
 
@@ -98,6 +62,13 @@ def phase(course: Course, shares: FloatArray) -> FloatArray:
     if course.progress is not None:
         gone = np.minimum(np.maximum(course.progress.gone(gone), 0.0), 1.0)
     return 1.0 - gone
+
+
+def phase_at(course: Course, share: float) -> float:
+    """The phase at one moment."""
+    if course.clock is None and course.progress is None:
+        return 1.0 - min(share, 1.0)
+    return float(phase(course, np.array([share]))[0])
 
 
 def clock(course: Course, shares: FloatArray) -> FloatArray:

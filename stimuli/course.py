@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -102,6 +103,25 @@ class Course:
     def is_coupled(self) -> bool:
         """Whether any joint's spring depends on another's."""
         return self.dragged is not None or self.induced is not None
+
+    @cached_property
+    def causes(self) -> FloatArray:
+        """What moves the springs, (n_weights + 1, d): the weights, exaggerated, and the way to the goal."""
+        return np.concatenate([self.exaggeration * self.weights, (self.goal - self.start)[None]])
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether `causes` is all that moves them: goals stay, and exaggeration acts around the goal."""
+        return (
+            self.goal_lag_s == 0
+            and self.until_then is None
+            and (self.around == "goal" or self.exaggeration == 1)
+        )
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether every joint is a spring of its own in even time: none acts on another, none anticipates."""
+        return self.clock is None and self.window == 0 and self.carried is None and not self.is_coupled
 
     @property
     def gated(self) -> tuple[Relation, ...]:

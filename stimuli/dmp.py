@@ -24,7 +24,6 @@ from typing import Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from stimuli.attractor import basis
 from stimuli.course import Course, Scheme
 from stimuli.ends import eased, rests_at_ends
 from stimuli.errors import InputError
@@ -32,7 +31,7 @@ from stimuli.principles import Modulation
 from stimuli.relations import relations_of
 from stimuli.robots.model import Robot
 from stimuli.rollout import roll_out
-from stimuli.spring import respond, step_of
+from stimuli.superposition import answers_in
 from stimuli.trajectory import FloatArray, Trajectory
 
 _REST_AFTER = 0.25  # of the duration, in which a learned motion is to stay at its goal
@@ -133,12 +132,8 @@ def _responses(n: int, learning: Learning) -> tuple[FloatArray, FloatArray, Floa
     Kept, as gestures of one duration share them. Of Q only the rows of samples: those of the penalty meet 0.
     """
     shares = np.arange(n + 1 + round(_REST_AFTER * n)) / n
-    rate = learning.alpha / 2
-    attractors = np.column_stack(
-        [basis(1 - np.minimum(shares, 1), learning.n_weights) / rate**2, np.ones(len(shares))]
-    )
-    step = step_of(learning.scheme, rate, 1 / n)
-    responses = respond(attractors, np.zeros((2, attractors.shape[1])), step)[0]
+    x = 1 - np.minimum(shares, 1)
+    responses = answers_in(x, learning.n_weights, learning.scheme, learning.alpha / 2, 1 / n)[0]
     to_weights, to_goal = responses[:, :-1], responses[:, -1:]
     penalty = np.sqrt(learning.regularisation * np.mean(np.sum(to_weights**2, axis=0)))
     q, r = np.linalg.qr(np.concatenate([to_weights, penalty * np.eye(learning.n_weights)]))

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from stimuli.attractor import ROUNDING, Group, attractor, clock, filtered_goal, groups, pace
+from stimuli.attractor import ROUNDING, attractor_at, clock, filtered_goal, pace
 from stimuli.course import Course
+from stimuli.groups import groups
 from stimuli.spring import decay, step_of
 from stimuli.trajectory import FloatArray
 
@@ -66,7 +67,7 @@ class Runner:
         if self._carries:
             self._pending = np.tensordot(decay(course.rate, h), self._pending, axes=1)
         self.share += h
-        pull, self._pull = self._pull, attractor(course, np.array([self.share]))[0]
+        pull, self._pull = self._pull, attractor_at(course, self.share)
         now = before
         if course.clock is not None:
             now, then = clock(course, np.array([before, self.share])).tolist()
@@ -95,9 +96,10 @@ class Runner:
 
     def _set_out(self, course: Course) -> None:
         self.course = course
-        self._pull = attractor(course, np.array([self.share]))[0]
+        self._pull = attractor_at(course, self.share)
         self._carries = course.carried is not None or bool(self._pending.any())
-        self._groups = groups(course, gated=self._carries or course.is_coupled)
+        alone = course.is_plain and not self._carries
+        self._groups = [] if alone else groups(course, gated=self._carries or course.is_coupled)
         for group in self._groups:
             if group.gates is not None:
                 velocities = group.gates.passed(self._motion[:, None], course.start)[1]
@@ -105,31 +107,25 @@ class Runner:
 
     def _move(self, pull: FloatArray, h: float, anticipating: bool) -> None:
         """Take a step of h shares; the attractors are `pull` before and `self._pull` after it, (d,) each."""
-        old, new = self._motion, self._motion.copy()
+        course, old = self.course, self._motion
+        if not self._groups:
+            alone = old[:, : len(pull)]
+            alone[:] = step_of(course.scheme, course.rate, h).taken(alone, pull, self._pull)
+            return
+        new = self._motion = old.copy()
         for group in self._groups:
             if group.gates is not None:
                 both = np.stack([old, new], axis=1)
-                steps, velocities = group.gates.passed(both, self.course.start)
+                steps, velocities = group.gates.passed(both, course.start)
                 new[:, group.columns] = old[0, group.columns] + steps[0], velocities[1]
                 continue
             gain, mirror = (group.gain, group.mirror) if anticipating else (1.0, 1.0)
-            step = step_of(self.course.scheme, self.course.rate, h, gain)
-            own = slice(len(pull)) if len(self._groups) == 1 else group.columns
-            state, begin, end = old[:, own], mirror * pull[own], mirror * self._pull[own]
-            if group.depth:
-                shift, begin_push = self._from_sources(group, old)
-                shift_after, end_push = self._from_sources(group, new)
-                state, begin, end = state + shift, begin + begin_push, end + end_push
-            made = step.across @ state + step.before[:, None] * begin + step.after[:, None] * end
-            new[:, own] = made - shift_after if group.depth else made
-        self._motion = new
-
-    def _from_sources(self, group: Group, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """What sources in this state add to their targets' states, (2, m), and attractors, (m,)."""
-        sources = self.course.displaced[group.columns]
-        drag = 2 / self.course.rate * self.course.dragging[group.columns]
-        shift: FloatArray = motion @ sources.T
-        return shift, shift[0] + drag @ motion[1]
+            (shift, push), (shift_after, push_after) = group.from_sources(old), group.from_sources(new)
+            new[:, group.columns] = -shift_after + step_of(course.scheme, course.rate, h, gain).taken(
+                old[:, group.columns] + shift,
+                mirror * pull[group.columns] + push,
+                mirror * self._pull[group.columns] + push_after,
+            )
 
 
 def run(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArray]:

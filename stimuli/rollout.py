@@ -9,10 +9,12 @@ import math
 
 import numpy as np
 
-from stimuli.attractor import ROUNDING, attractor, groups
+from stimuli.attractor import ROUNDING, attractor
 from stimuli.course import Course
+from stimuli.groups import groups
 from stimuli.online import run
 from stimuli.spring import respond, step_of
+from stimuli.superposition import superposed
 from stimuli.trajectory import FloatArray, Trajectory
 
 REST = 1e-3  # of the largest amplitude; see roll_out
@@ -49,35 +51,45 @@ def integrate(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArr
     """Positions and velocities per second at 0, dt_s, …, n dt_s along a course, (n + 1, d) each."""
     if course.clock is not None:  # no two steps are the same
         return run(course, dt_s, n)
-    h = dt_s / course.tau_s
-    shares = sampled(n, h)
-    anticipating = int(np.count_nonzero(shares[:-1] < course.window - ROUNDING))  # steps
-    pull = attractor(course, shares)  # (n + 1, d)
+    d, shares = len(course.joints), sampled(n, dt_s / course.tau_s)
+    motion = _alone(course, shares)
+    if not course.is_plain:
+        motion = _together(course, motion, shares)
+    positions, velocities = motion[0, :, :d], motion[1] / course.tau_s
+    if course.carried is not None:
+        positions = positions + velocities @ course.carried.T
+    return course.start + positions, velocities[:, :d]
+
+
+def _alone(course: Course, shares: FloatArray) -> FloatArray:
+    """Motion (2, n + 1, d) as if no joint acted on another and none anticipated."""
+    if course.is_linear:
+        return superposed(course, shares)
+    step = step_of(course.scheme, course.rate, shares[1])
+    return respond(attractor(course, shares), np.zeros((2, len(course.joints))), step)
+
+
+def _together(course: Course, alone: FloatArray, shares: FloatArray) -> FloatArray:
+    """Motion (2, n + 1, c) of the joints and of what passes their gates, from what each would do alone."""
     gated = course.is_coupled or course.carried is not None
-    d = len(course.joints)
-    motion = np.zeros((2, n + 1, d + len(course.gated) * gated))
+    motion = np.zeros((2, len(shares), len(course.joints) + len(course.gated) * gated))
     for group in groups(course, gated=gated):
         if group.gates is not None:
             steps, velocities = group.gates.passed(motion, course.start)
             motion[0, 1:, group.columns] = np.cumsum(steps, axis=0).T
             motion[1, :, group.columns] = velocities.T
             continue
-        own = pull[:, group.columns]
-        if group.depth:
-            shift = motion @ course.displaced[group.columns].T
-            pushed = shift[0] + motion[1] @ (2 / course.rate * course.dragging[group.columns].T)
-        else:
-            shift, pushed = np.zeros((2, 1, 1)), np.zeros((1, 1))
-        border = anticipating if group.anticipates else 0
-        made = np.zeros((2, 1, own.shape[1]))
-        if border:
-            turned = group.mirror * own + pushed
-            step = step_of(course.scheme, course.rate, h, group.gain)
-            made = respond(turned[: border + 1], made[:, 0], step)
-        step = step_of(course.scheme, course.rate, h)
-        rest = respond((own + pushed)[border:], made[:, -1], step)
-        motion[:, :, group.columns] = np.concatenate([made[:, :-1], rest], axis=1) - shift
-    positions, velocities = motion[0, :, :d], motion[1] / course.tau_s
-    if course.carried is not None:
-        positions = positions + velocities @ course.carried.T
-    return course.start + positions, velocities[:, :d]
+        made, rest = alone[:, :, group.columns], np.zeros((2, len(group.columns)))
+        step = step_of(course.scheme, course.rate, shares[1])
+        shift, pushed = group.from_sources(motion)
+        if group.anticipates:
+            turned = step_of(course.scheme, course.rate, shares[1], group.gain)
+            border = int(np.count_nonzero(shares[:-1] < course.window - ROUNDING))  # steps in the window
+            pull = attractor(course, shares)[:, group.columns]
+            begun = respond((group.mirror * pull + pushed)[: border + 1], rest, turned)
+            ended = respond((pull + pushed)[border:], begun[:, -1], step)
+            made = np.concatenate([begun[:, :-1], ended], axis=1)
+        elif group.depth:
+            made = made + respond(pushed, rest, step)
+        motion[:, :, group.columns] = made - shift
+    return motion

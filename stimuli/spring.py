@@ -34,6 +34,12 @@ class Step:
     before: FloatArray  # (2,)
     after: FloatArray  # (2,)
 
+    def taken(self, state: FloatArray, u_0: FloatArray, u_1: FloatArray) -> FloatArray:
+        """States (2, m) after this step of springs chasing what goes from u_0 to u_1, (m,) each."""
+        driven = np.multiply.outer(self.before, u_0) + np.multiply.outer(self.after, u_1)
+        made: FloatArray = np.dot(self.across, state) + driven
+        return made
+
 
 @lru_cache(maxsize=4096)
 def step_of(scheme: Scheme, rate: float, h: float, gain: float = 1.0) -> Step:

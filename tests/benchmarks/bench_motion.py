@@ -37,9 +37,12 @@ def rows() -> Iterator[Row]:
         Modulation(principles=tuple(k.example(robot) for k in PRINCIPLES.values())), robot
     )
     what = f"one rollout, {D} joints, {DURATION_S:g} s at 100 Hz"
-    for name, course, reach in (("no modulation", plain, 60), ("all nine", nine, 15)):
+    for name, course, reach, detail in (
+        ("no modulation", plain, 60, "answers to the weights kept"),
+        ("all nine", nine, 15, ""),
+    ):
         faster = times_faster(lambda c=course: integrate(c, DT_S, N), open_loop, repeats=20)
-        yield Row(f"{what}, {name}", f"{PEER} rk4-cython", faster, reach)
+        yield Row(f"{what}, {name}", f"{PEER} rk4-cython", faster, reach, detail=detail)
 
     rng = np.random.default_rng(0)
     variants = [

@@ -7,8 +7,9 @@ import pytest
 
 from stimuli.dmp import Learning, Primitive
 from stimuli.principles import PRINCIPLES, Modulation
-from stimuli.rollout import integrate
-from stimuli.variants import integrate_all, is_superposition
+from stimuli.rollout import integrate, sampled
+from stimuli.superposition import answers
+from stimuli.variants import integrate_all
 
 
 @pytest.mark.parametrize("scheme", ["foh", "zoh", "semi"])
@@ -19,21 +20,20 @@ def test_variants_together_are_the_motions_one_by_one(scheme, robot, demonstrate
     together = integrate_all(courses, 0.02, 200)
     for course, positions in zip(courses, together, strict=True):
         assert np.abs(integrate(course, 0.02, 200)[0] - positions).max() < 1e-11
-    assert [is_superposition(course) for course in courses].count(True) >= 5
+    assert [course.is_plain and course.is_linear for course in courses].count(True) >= 5
 
 
 def test_the_spread_of_randomization_is_the_one_its_formula_says(robot, demonstrate):
     """Standard deviation over seeds: (1 + mean |w|) p |R|, R the spring's answers to the weights."""
-    from stimuli.variants import responses
-
     primitive = Primitive.learn(demonstrate(1))
     seeds = [Modulation.model_validate({"rand": {"intensity": 0.2, "seed": seed}}) for seed in range(2000)]
     drawn = integrate_all([primitive.course(m, robot) for m in seeds], 0.1, 30)
     scale = 1 + np.abs(primitive.weights).mean(axis=0)
-    answers = responses(primitive.course(Modulation(), robot), 0.1, 30)[:, :-1]
-    expected = 0.2 * scale * np.linalg.norm(answers, axis=1)[:, None]
+    plain = primitive.course(Modulation(), robot)
+    to_weights = answers(plain, sampled(30, 0.1 / plain.tau_s))[0, :, :-1]
+    expected = 0.2 * scale * np.linalg.norm(to_weights, axis=1)[:, None]
     assert drawn.std(axis=0)[5:] == pytest.approx(expected[5:], rel=0.06)
     assert drawn.mean(axis=0)[5:] == pytest.approx(
-        integrate(primitive.course(Modulation(), robot), 0.1, 30)[0][5:],
+        integrate(plain, 0.1, 30)[0][5:],
         abs=4 * expected.max() / np.sqrt(2000),
     )
