@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -22,7 +22,7 @@ DASHED = (0, (4, 3))
 def draw_targets(outcome: Targets, labels: Mapping[str, str]) -> Drawing:
     """Mean ± SE of every item for every stimulus, with all ratings behind and the target marked."""
     return Drawing(
-        name=outcome.part,
+        name=outcome.name,
         paint=partial(_paint_targets, outcome=outcome, labels=labels),
         height_in=2.35,
         caption=f"Perceived expression of each clip: mean rating and standard error "
@@ -47,7 +47,8 @@ def _paint_targets(figure: FigureBase, *, outcome: Targets, labels: Mapping[str,
     for i, item in enumerate(answers.items):
         places = np.arange(len(answers.stimuli)) + (i - (len(answers.items) - 1) / 2) * width
         colour = COLOURS[i % len(COLOURS)]
-        _strips(axes, outcome, i, places=places, width=width, colour=colour)
+        columns = zip(places, answers.ratings[:, :, i].T, strict=True)
+        _strips(axes, columns, width=width, colour=colour)
         _means(axes, outcome, item, places=places, colour=colour)
     level = next(iter(outcome.results.values())).against.null
     if scale[0] <= level <= scale[1]:
@@ -57,8 +58,7 @@ def _paint_targets(figure: FigureBase, *, outcome: Targets, labels: Mapping[str,
             textcoords="offset points", ha="left", va="center", fontsize=5.5, color=INK,
         )  # fmt: skip
     axes.set_xlim(-0.5, len(answers.stimuli) - 0.5)
-    axes.set_ylim(scale[0] - 0.25, scale[1] + 0.25)
-    axes.set_yticks(np.arange(scale[0], scale[1] + 1))
+    _scale(axes, scale)
     axes.set_xticks(range(len(answers.stimuli)), [labels.get(s, s.capitalize()) for s in answers.stimuli])
     axes.tick_params(axis="x", length=0)
     axes.set_xlabel("Intended expression")
@@ -68,18 +68,28 @@ def _paint_targets(figure: FigureBase, *, outcome: Targets, labels: Mapping[str,
     _legend(figure, answers.items, labels)
 
 
+def _scale(axes: Axes, scale: tuple[float, float]) -> None:
+    """The whole scale as the vertical axis, and nothing beyond it."""
+    axes.set_ylim(scale[0] - 0.25, scale[1] + 0.25)
+    axes.set_yticks(np.arange(scale[0], scale[1] + 1))
+
+
 def _strips(
-    axes: Axes, outcome: Targets, item: int, *, places: np.ndarray, width: float, colour: str
+    axes: Axes,
+    columns: Iterable[tuple[float, np.ndarray]],
+    *,
+    width: float,
+    colour: str,
+    height: float = 0.3,
 ) -> None:
-    """Behind each mean a bar per rating, as wide as its share of participants."""
+    """Behind each mean a bar per rating, as wide as its share; columns are (place, ratings)."""
     from matplotlib.collections import PolyCollection
 
     corners = []
-    for s, x in enumerate(places):
-        ratings = outcome.answers.ratings[:, s, item]
+    for x, ratings in columns:
         values, counts = np.unique(ratings[~np.isnan(ratings)], return_counts=True)
         for value, share in zip(values, counts / max(1, counts.sum()), strict=True):
-            w, h = share * width * 0.95 / 2, 0.15
+            w, h = share * width * 0.95 / 2, height / 2
             corners.append([(x - w, value - h), (x + w, value - h), (x + w, value + h), (x - w, value + h)])
     axes.add_collection(PolyCollection(corners, facecolor=colour, alpha=0.4, linewidth=0, zorder=2))
 
@@ -125,7 +135,7 @@ def draw_levels(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
     """Share of the outcome at both levels of every principle, with Wilson intervals and counts."""
     first, second = outcome.comparison.levels
     return Drawing(
-        name=outcome.part,
+        name=outcome.name,
         paint=partial(_paint_levels, outcome=outcome, labels=labels),
         height_in=2.1,
         caption=f"Share of participants who answered “{outcome.comparison.outcome}” by intended level, "
@@ -176,3 +186,58 @@ def _paint_levels(figure: FigureBase, *, outcome: Levels, labels: Mapping[str, s
         for level, marker, colour, _ in looks
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=2, handletextpad=0.1)
+
+
+def draw_compared(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
+    """Mean ± SE of the compared ratings at both levels, with all ratings behind."""
+    first, second = outcome.comparison.levels
+    item = outcome.comparison.item
+    return Drawing(
+        name=outcome.name,
+        paint=partial(_paint_compared, outcome=outcome, labels=labels),
+        height_in=2.1,
+        caption=f"Rating of {labels.get(item, item)}, {first} against {second}: mean and standard error; "
+        "bars behind show how many gave each rating.",
+        alt="; ".join(
+            f"{labels.get(name, name)}: "
+            + ", ".join(
+                f"{level} {'–' if m.mean is None else f'{m.mean:.2f}'} (n = {m.n})"
+                for level, m in one.summaries.items()
+            )
+            for name, one in outcome.results.items()
+        ),
+    )
+
+
+def _paint_compared(figure: FigureBase, *, outcome: Levels, labels: Mapping[str, str]) -> None:
+    answers, comparison = outcome.answers, outcome.comparison
+    assert answers.scale is not None
+    axes = figure.add_subplot()
+    values = answers.on(comparison.item)
+    items = len(answers.series.get(comparison.item, (comparison.item,)))
+    places, names = [], []
+    for x, (name, stimuli) in enumerate(comparison.pairs.items()):
+        for level, stimulus, colour, marker, aside in zip(
+            comparison.levels, stimuli, (COLOURS[4], COLOURS[3]), "^v", (-0.2, 0.2), strict=True
+        ):
+            one = outcome.results[name].summaries[level]
+            column = (x + aside, values[:, answers.stimuli.index(stimulus)])
+            _strips(axes, [column], width=0.36, colour=colour, height=max(0.3 / items, 0.05))
+            if one.mean is not None:
+                axes.errorbar(
+                    x + aside, one.mean, yerr=one.se or 0, color=colour, ecolor=INK, marker=marker,
+                    markersize=4.5, markeredgecolor="black", markeredgewidth=0.6, elinewidth=0.8, capsize=1.8,
+                    capthick=0.8, zorder=5,
+                )  # fmt: skip
+            places.append(x + aside)
+            names.append(f"{labels.get(level, level)}\nn = {one.n}")
+    _scale(axes, answers.scale)
+    axes.set_xlim(-0.5, len(comparison.pairs) - 0.5)
+    axes.set_xticks(places, names)
+    axes.tick_params(axis="x", length=0)
+    axes.set_ylabel("Rating, mean ± SE")
+    for x, name in enumerate(comparison.pairs):
+        axes.annotate(
+            labels.get(name, name.capitalize()), (x, 1), xycoords=("data", "axes fraction"), ha="center",
+            va="bottom",
+        )  # fmt: skip

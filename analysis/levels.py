@@ -25,6 +25,9 @@ from analysis.target import Judging, Verdict, judge
 FloatArray = NDArray[np.float64]
 
 
+PAIRED = frozenset({"paired t", "wilcoxon", "exact sign flip", "McNemar's exact"})  # tests of the differences
+
+
 @dataclass(frozen=True)
 class Choices:
     """Counts and the tests they allow, where the outcome is one of two answers."""
@@ -51,6 +54,11 @@ class Compared:
     sign_flip: SignFlip
     choices: Choices | None
     verdict: Verdict
+
+    @property
+    def deciding_t(self) -> TTest:
+        """The t-test to report: the paired one where pairs are what was tested, else Student's."""
+        return self.paired if self.verdict.test in PAIRED else self.student
 
 
 @dataclass(frozen=True)

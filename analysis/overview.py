@@ -60,10 +60,7 @@ def draw_forest(findings: Findings, labels: Mapping[str, str]) -> Drawing | None
         if isinstance(outcome, Targets):
             tests = {key: one.against.t_test for key, one in outcome.results.items()}
         elif outcome.mirrors is None:
-            tests = {
-                key: one.paired if outcome.judging.test == "paired t" else one.student
-                for key, one in outcome.results.items()
-            }
+            tests = {key: one.deciding_t for key, one in outcome.results.items()}
         else:
             continue
         rows.append((name, None))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,13 @@ if TYPE_CHECKING:
     from study.protocol import Hypothesis, Protocol
 
 
+TAKEN = frozenset({
+    "study", "data", "software", "alpha", "participants", "missing", "hypotheses", "further", "effects",
+    "scales", "bootstrap_seed", "before_exclusions",
+})  # fmt: skip
+"""Names that stand in results.json or among the figures for something else than a hypothesis."""
+
+
 class PlanError(InputError):
     """A hypothesis that the study's parts cannot answer."""
 
@@ -27,6 +34,7 @@ class Targets:
     """A hypothesis that targets are rated above chance."""
 
     hypothesis: str
+    name: str  # among results, tables and figures
     part: str
     answers: Answers
     judging: Judging
@@ -41,6 +49,7 @@ class Levels:
     """A hypothesis that one level is judged higher than another."""
 
     hypothesis: str
+    name: str  # among results, tables and figures; a mirrored one bears that of what it mirrors
     mirrors: str | None
     part: str
     answers: Answers
@@ -77,6 +86,15 @@ def decide_all(responses: Responses, protocol: Protocol) -> dict[str, Outcome]:
     }
 
 
+def result_name(hypothesis: str, protocol: Protocol) -> str:
+    """What a hypothesis's results are called: as its part; where a part has several, PART_HYPOTHESIS."""
+    hypotheses = protocol.analysis.hypotheses
+    counted = hypotheses[hypothesis].mirrors or hypothesis
+    part = hypotheses[counted].part
+    alone = sum(one.part == part and one.mirrors is None for one in hypotheses.values()) == 1
+    return part if alone and part not in TAKEN else f"{part}_{counted}"
+
+
 def decide(name: str, hypothesis: Hypothesis, responses: Responses, protocol: Protocol) -> Outcome:
     """Test one hypothesis."""
     answers = responses.answers(hypothesis.part, hypothesis.item)
@@ -110,6 +128,7 @@ def _targets(
     ratings = answers.ratings
     return Targets(
         hypothesis=name,
+        name=result_name(name, protocol),
         part=answers.part,
         answers=answers,
         judging=judging,
@@ -143,10 +162,11 @@ def _levels(
         pairs=pairs,
         item=hypothesis.item or answers.items[0],
         outcome=hypothesis.outcome,
-        other=next((option for option in answers.options if option != hypothesis.outcome), None),
+        other=_other(hypothesis.outcome, answers.options),
     )
     return Levels(
         hypothesis=name,
+        name=result_name(name, protocol),
         mirrors=hypothesis.mirrors,
         part=answers.part,
         answers=answers,
@@ -154,6 +174,12 @@ def _levels(
         comparison=comparison,
         results=comparisons(answers, comparison, judging),
     )
+
+
+def _other(outcome: str | None, options: Sequence[str]) -> str | None:
+    """The answer that is not the outcome, or of several "not OUTCOME"."""
+    others = [option for option in options if option != outcome]
+    return None if outcome is None else others[0] if len(others) == 1 else f"not {outcome}"
 
 
 def _pairs(hypothesis: Hypothesis, answers: Answers, protocol: Protocol) -> dict[str, tuple[str, str]]:

@@ -36,13 +36,13 @@ def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mappin
         for warning in warnings(findings):
             pages.write(warning, colour=ALARM)
         pages.heading("Participants")
-        pages.draw(drawings["flow"])
+        pages.draw(drawings["participants"])
         for name, outcome in findings.outcomes.items():
             pages.heading(f"{name}: {claim(protocol, name, outcome)}")
-            _outcome(pages, name, outcome, drawings, labels)
-        if "forest" in drawings:
+            _outcome(pages, outcome, drawings, labels)
+        if "effects" in drawings:
             pages.heading("Effect sizes")
-            pages.draw(drawings["forest"])
+            pages.draw(drawings["effects"])
         pages.heading("What the design cannot tell")
         for threat in THREATS:
             pages.write(f"– {threat}")
@@ -53,7 +53,7 @@ def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mappin
 
 
 def _outcome(
-    pages: Pages, name: str, outcome: Outcome, drawings: Mapping[str, Drawing], labels: Mapping[str, str]
+    pages: Pages, outcome: Outcome, drawings: Mapping[str, Drawing], labels: Mapping[str, str]
 ) -> None:
     mirrored = isinstance(outcome, Levels) and outcome.mirrors is not None
     pages.write(
@@ -62,8 +62,7 @@ def _outcome(
         else method(outcome)
     )
     if not mirrored:
-        if name in drawings:
-            pages.draw(drawings[name])
+        pages.draw(drawings[outcome.name])
         if isinstance(outcome, Targets):
             pages.tabulate(TARGET_HEAD, _target_rows(outcome, labels), TARGET_WIDTHS)
             pages.write("What other definitions of chance say, adjusted p:")
@@ -103,7 +102,7 @@ def _definitions(
 def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
     rows = []
     for key, one in outcome.results.items():
-        test, choices = one.student, one.choices
+        test, choices = one.deciding_t, one.choices
         counts = choices.counts.values() if choices else ()
         rows.append([
             labels.get(key, key.capitalize()), " / ".join(apa.share(row[0], sum(row)) for row in counts),

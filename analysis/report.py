@@ -10,13 +10,21 @@ from typing import TYPE_CHECKING
 
 from analysis.dataset import read_responses
 from analysis.drawing import Drawing, styled
-from analysis.figures import draw_levels, draw_targets
+from analysis.figures import draw_compared, draw_levels, draw_targets
 from analysis.further import look_further
 from analysis.overview import draw_flow, draw_forest
 from analysis.plan import Findings, Targets, carry_out
 from analysis.printed import write_pdf
 from analysis.results import Provenance, Results
-from analysis.tables import confusion_csv, confusion_latex, means_csv, targets_csv, targets_latex
+from analysis.tables import (
+    compared_csv,
+    compared_latex,
+    confusion_csv,
+    confusion_latex,
+    means_csv,
+    targets_csv,
+    targets_latex,
+)
 from analysis.web import html
 from analysis.words import labels_of
 
@@ -61,24 +69,28 @@ def tables(findings: Findings) -> dict[str, str]:
     note = findings.responses.note
     for outcome in findings.outcomes.values():
         if isinstance(outcome, Targets):
-            written[f"{outcome.part}.tex"] = targets_latex(outcome, note)
-            written[f"{outcome.part}.csv"] = targets_csv(outcome, note)
-            written[f"{outcome.part}_means.csv"] = means_csv(outcome, note)
+            written[f"{outcome.name}.tex"] = targets_latex(outcome, note)
+            written[f"{outcome.name}.csv"] = targets_csv(outcome, note)
+            written[f"{outcome.name}_means.csv"] = means_csv(outcome, note)
         elif outcome.mirrors is None and outcome.comparison.outcome is not None:
-            written[f"{outcome.part}.tex"] = confusion_latex(outcome, note)
-            written[f"{outcome.part}.csv"] = confusion_csv(outcome, note)
+            written[f"{outcome.name}.tex"] = confusion_latex(outcome, note)
+            written[f"{outcome.name}.csv"] = confusion_csv(outcome, note)
+        elif outcome.mirrors is None:
+            written[f"{outcome.name}.tex"] = compared_latex(outcome, note)
+            written[f"{outcome.name}.csv"] = compared_csv(outcome, note)
     return written
 
 
 @styled
 def draw(findings: Findings, labels: Mapping[str, str]) -> dict[str, Drawing]:
-    """The flow of participants, the figure of each hypothesis that has one, and the sizes of all effects."""
-    drawings = {"flow": draw_flow(findings.flow)}
-    for name, outcome in findings.outcomes.items():
+    """The flow of participants, the figure of each hypothesis, and the sizes of all effects, by file name."""
+    drawings = [draw_flow(findings.flow)]
+    for outcome in findings.outcomes.values():
         if isinstance(outcome, Targets):
-            drawings[name] = draw_targets(outcome, labels)
-        elif outcome.mirrors is None and outcome.comparison.outcome is not None:
-            drawings[name] = draw_levels(outcome, labels)
+            drawings.append(draw_targets(outcome, labels))
+        elif outcome.mirrors is None:
+            draw_one = draw_compared if outcome.comparison.outcome is None else draw_levels
+            drawings.append(draw_one(outcome, labels))
     if (forest := draw_forest(findings, labels)) is not None:
-        drawings["forest"] = forest
-    return {name: drawing.noting(findings.responses.note) for name, drawing in drawings.items()}
+        drawings.append(forest)
+    return {drawing.name: drawing.noting(findings.responses.note) for drawing in drawings}

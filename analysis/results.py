@@ -65,20 +65,22 @@ class Results:
         for name, outcome in self.findings.outcomes.items():
             content["hypotheses"][name] = {
                 "part": outcome.part,
+                "results": outcome.name,
                 **asdict(outcome.judging),
                 **({"mirrors": outcome.mirrors} if isinstance(outcome, Levels) else {}),
             }
             if isinstance(outcome, Targets):
-                content[outcome.part] = {s: _recognised(one, outcome) for s, one in outcome.results.items()}
-                content[f"{outcome.part}_means"] = outcome.means
+                content[outcome.name] = {s: _recognised(one, outcome) for s, one in outcome.results.items()}
+                content[f"{outcome.name}_means"] = outcome.means
             elif outcome.mirrors is None:
-                compared = {name: _compared(one, outcome) for name, one in outcome.results.items()}
-                content[outcome.part] = content.get(outcome.part, {}) | compared
+                content[outcome.name] = {
+                    name: _compared(one, outcome) for name, one in outcome.results.items()
+                }
         for outcome in self.findings.outcomes.values():
             if isinstance(outcome, Levels) and outcome.mirrors:
                 for principle, one in outcome.results.items():
                     mirrored = {"student": t_json(one.student, one.verdict), "verdict": asdict(one.verdict)}
-                    content[outcome.part].setdefault(principle, {}).setdefault("mirrors", {})[
+                    content[outcome.name].setdefault(principle, {}).setdefault("mirrors", {})[
                         outcome.hypothesis
                     ] = mirrored
         content["further"] = self._further()
@@ -86,12 +88,12 @@ class Results:
         return strictly
 
     def _further(self) -> Json:
-        """Further checks, by part; tests without exclusions only where somebody was left out."""
+        """Further checks, by name of the results; without exclusions only where somebody was left out."""
         further, outcomes = self.further, self.findings.outcomes
         content: Json = {"scales": further.scales, "bootstrap_seed": SEED}
         for name in (*further.targets, *further.levels):
-            part: Json = content.setdefault(outcomes[name].part, {})
-            part.setdefault("tests", {}).update(further.targets.get(name) or further.levels[name])
+            part: Json = content.setdefault(outcomes[name].name, {})
+            part["tests"] = further.targets.get(name) or further.levels[name]
             for key, found in (("agreement", further.agreement), ("order", further.order)):
                 if name in found:
                     part[key] = found[name]

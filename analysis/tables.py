@@ -17,6 +17,9 @@ SPECIAL = {
 }  # fmt: skip
 
 
+ARROWS = {"higher": r"$\uparrow$", "lower": r"$\downarrow$"}
+
+
 def escaped(text: str) -> str:
     """Text that LaTeX prints as it stands."""
     return "".join(SPECIAL.get(character, character) for character in text)
@@ -35,7 +38,9 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
         rf"\multicolumn{{2}}{{{rule}}}{{$\mathcal{{P}}_{{\text{{{escaped(_label(one))}}}}}$}}"
         for rule, (one, _) in zip(rules, judged, strict=True)
     ]
-    arrows = r" & ".join([r"\multicolumn{1}{c}{$\uparrow$} & $\downarrow$"] * len(judged))
+    answers = (outcome.comparison.outcome, outcome.comparison.other)
+    up, down = (ARROWS.get(answer or "", escaped(answer or "")) for answer in answers)
+    arrows = " & ".join([rf"\multicolumn{{1}}{{c}}{{{up}}} & {down}"] * len(judged))
     lines = [
         r"% packages: amsmath, booktabs, diagbox",
         r"\begin{table}",
@@ -65,7 +70,7 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
         rf"  \caption{{{_noted(note)}"
         r"Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
         rf"perceived intensity ($I_P$), with counts. {escaped(confusion_note(outcome))}}}",
-        rf"  \label{{tab:{outcome.part}}}",
+        rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"
@@ -101,17 +106,18 @@ def confusion_note(outcome: Levels) -> str:
 
 def confusion_csv(outcome: Levels, note: str = "") -> str:
     """Counts, shares and tests, one row per principle and level."""
+    chosen, other = outcome.comparison.outcome, outcome.comparison.other
     head = (
-        "principle", "level", "n", "higher", "lower", "share_higher", "share_ci_low", "share_ci_high",
-        "t", "df", "p", "p_adjusted", "decided_by", "d", "d_ci_low", "d_ci_high", "mcnemar_p_one_sided",
-        "mcnemar_p_mid", "fisher_p", "binomial_p",
+        "principle", "level", "n", f"{chosen}", f"{other}", f"share_{chosen}", "share_ci_low",
+        "share_ci_high", "t", "df", "p", "p_adjusted", "decided_by", "d", "d_ci_low", "d_ci_high",
+        "mcnemar_p_one_sided", "mcnemar_p_mid", "fisher_p", "binomial_p",
     )  # fmt: skip
     rows = []
     for one in outcome.results.values():
         if one.choices is None:
             continue
-        for place, (level, (higher, lower)) in enumerate(one.choices.counts.items()):
-            counted = (one.name, level, higher + lower, higher, lower)
+        for place, (level, (k, rest)) in enumerate(one.choices.counts.items()):
+            counted = (one.name, level, k + rest, k, rest)
             rows.append(
                 (
                     *counted,
@@ -178,7 +184,59 @@ def targets_latex(outcome: Targets, note: str = "") -> str:
         rf"  \caption{{{_noted(note)}Ratings of the intended expression against chance "
         rf"({escaped(outcome.definition.says)}); {judging.test}, {judging.sides}, "
         rf"$p$ {judging.adjustment}.}}",
-        rf"  \label{{tab:{outcome.part}}}",
+        rf"  \label{{tab:{outcome.name}}}",
+        r"\end{table}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def compared_csv(outcome: Levels, note: str = "") -> str:
+    """The ratings compared: mean, SD and SE at each level, and the tests."""
+    head = (
+        "name", "level", "n", "mean", "sd", "se", "t", "df", "p", "p_adjusted", "decided_by", "d", "d_ci_low",
+        "d_ci_high", "welch_p", "paired_p", "wilcoxon_p",
+    )  # fmt: skip
+    rows = [
+        (one.name, level, m.n, m.mean, m.sd, m.se, *_tested(one), one.welch.p, one.paired.p, one.wilcoxon.p)
+        for one in outcome.results.values()
+        for level, m in one.summaries.items()
+    ]
+    return _csv(head, rows, note)
+
+
+def compared_latex(outcome: Levels, note: str = "") -> str:
+    """Mean ratings at both levels and their tests. Needs the package booktabs."""
+    first, second = (escaped(level.capitalize()) for level in outcome.comparison.levels)
+    lines = [
+        r"% packages: booktabs",
+        r"\begin{table}",
+        r"  \centering",
+        r"  \setlength{\tabcolsep}{4pt}",
+        r"  \begin{tabular}{lrrrrrr}",
+        r"    \toprule",
+        rf"    & {first} $M$ ($SD$) & {second} $M$ ($SD$) & $t$ & $df$ & $p$ & $d$ [95\% CI] \\",
+        r"    \midrule",
+    ]
+    for one in outcome.results.values():
+        test = one.deciding_t
+        p = probability(one.verdict.p_adjusted, outcome.judging.alpha).removeprefix("= ")
+        means = (f"{_math(number(m.mean))} ({_math(number(m.sd))})" for m in one.summaries.values())
+        lines.append(
+            f"    {escaped(_label(one))} & {' & '.join(means)} & {_math(number(test.t))} & "
+            f"{_math(degrees(test.df))} & {_math(p)} & "
+            f"{_math(number(test.d))} {_math(interval(test.d_ci95))} \\\\"
+        )
+    judging = outcome.judging
+    sizes = "; ".join(
+        f"{_label(one)} $n$ = {', '.join(str(m.n) for m in one.summaries.values())}"
+        for one in outcome.results.values()
+    )
+    lines += [
+        r"    \bottomrule",
+        r"  \end{tabular}",
+        rf"  \caption{{{_noted(note)}Ratings compared: {judging.test}, {judging.sides}, "
+        rf"$p$ {judging.adjustment}. {sizes}.}}",
+        rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"
@@ -201,7 +259,7 @@ def _label(one: Compared) -> str:
 
 
 def _own_share(choices: Choices, level: str, place: int) -> tuple[float | None, float | None, float | None]:
-    """Share of "higher" with its Wilson interval; the binomial test of the low level counts "lower"."""
+    """Share of the outcome with its Wilson interval; the second level's binomial test counts the other."""
     test = choices.binomial[level]
     if test.estimate is None or test.wilson_ci95 is None:
         return None, None, None
@@ -210,7 +268,7 @@ def _own_share(choices: Choices, level: str, place: int) -> tuple[float | None, 
 
 
 def _tested(one: Compared) -> tuple[object, ...]:
-    test, verdict = one.student, one.verdict
+    test, verdict = one.deciding_t, one.verdict
     return (test.t, test.df, test.p, verdict.p_adjusted, verdict.test, test.d, *(test.d_ci95 or (None, None)))
 
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from analysis import apa
 from analysis.plan import Findings, Levels, Outcome, Targets
+from analysis.statistics.t_test import TTest
+from analysis.target import Judging, Verdict
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -13,26 +15,23 @@ if TYPE_CHECKING:
 
 def sentences(outcome: Outcome) -> dict[str, str]:
     """The test of each stimulus or principle as a sentence for a paper."""
-    judging = outcome.judging
     tests = (
         {name: (one.against.t_test, one.verdict) for name, one in outcome.results.items()}
         if isinstance(outcome, Targets)
-        else {name: (one.student, one.verdict) for name, one in outcome.results.items()}
+        else {name: (one.deciding_t, one.verdict) for name, one in outcome.results.items()}
     )
-    return {
-        name: apa.t_sentence(
-            test,
-            verdict.p_adjusted if verdict.note is None else None,
-            judging.alpha,
-            judging.adjustment,
-        )
-        + (
-            ""
-            if verdict.note is None
-            else f"; {verdict.test} p {apa.probability(verdict.p, judging.alpha)}, {judging.sides}"
-        )
-        for name, (test, verdict) in tests.items()
-    }
+    return {name: _sentence(test, verdict, outcome.judging) for name, (test, verdict) in tests.items()}
+
+
+def _sentence(test: TTest, verdict: Verdict, judging: Judging) -> str:
+    """A t-test, and beside it the test that decided where that was another."""
+    adjusted = None if judging.correction == "none" else verdict.p_adjusted
+    if verdict.test.endswith(" t"):
+        return apa.t_sentence(test, adjusted, judging.alpha, judging.adjustment)
+    decided = f"{verdict.test} p {apa.probability(verdict.p, judging.alpha)}, {judging.sides}"
+    if adjusted is not None:
+        decided += f", {judging.adjustment} p {apa.probability(adjusted, judging.alpha)}"
+    return f"{apa.t_sentence(test)}; {decided}"
 
 
 def summary(name: str, outcome: Outcome) -> str:
