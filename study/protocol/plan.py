@@ -74,11 +74,14 @@ class Hypothesis(Written):
         return self
 
 
+HypothesisName = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=60)]  # names files
+
+
 class Analysis(Written):
     """The plan of analysis: hypotheses by name, and what they share."""
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, Hypothesis] = Field(init=False)
+    __pydantic_extra__: dict[HypothesisName, Hypothesis] = Field(init=False)
 
     alpha: Probability = 0.05
 
