@@ -2,15 +2,14 @@
 
 A share of n people is k/n for a whole k, so most printed shares are impossible for a wrong n or a misprint:
 the GRIM test (Brown & Heathers 2017, Soc. Psychol. Personal. Sci. 8). The same holds for means of
-whole-number ratings.
+whole-number ratings, and counts must add up.
 """
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from fractions import Fraction
 from math import floor
 from pathlib import Path
@@ -18,10 +17,10 @@ from pathlib import Path
 import numpy as np
 
 from analysis.apa import probability, t_sentence
+from analysis.printed_table import Kind, PrintedRow, read_table
 from analysis.statistics.fisher import Fisher, fisher
 from analysis.statistics.student_t import student_t
 from analysis.statistics.t_test import TTest
-from stimuli.errors import InputError
 
 # Of 34 participants, how many called the high- and the low-intensity motion "higher" (Hielscher, Bulling &
 # Arras, IROS 2025, Table II): the only counts that give the printed shares. The printed row Arc/low,
@@ -62,12 +61,13 @@ class Fault:
     message: str
 
     def __str__(self) -> str:
-        return f"line {self.line}, {self.row}: {self.message}"
+        where = f"line {self.line}, {self.row}" if self.row else f"line {self.line}"
+        return f"{where}: {self.message}"
 
 
 @dataclass(frozen=True)
 class Recomputed:
-    """The tests that follow from two rows of printed shares."""
+    """The tests that follow from two printed rows."""
 
     name: str
     counts: tuple[tuple[int, int], tuple[int, int]]  # of both rows: first answer, second answer
@@ -87,66 +87,73 @@ class Verification:
     """What a printed table says about itself."""
 
     n: int
+    kind: Kind
     cells: int  # numbers checked
+    unchecked: tuple[str, ...]  # columns that hold nothing to check
     faults: tuple[Fault, ...]
     recomputed: tuple[Recomputed, ...]
-    other_sizes: tuple[int, ...]  # other numbers of participants, up to twice n, that fit all good rows
+    other_sizes: tuple[int, ...] | None  # numbers of participants up to twice n that fit too; None for counts
 
     def __str__(self) -> str:
         faults = [f"{len(self.faults)} cannot be:", *(f"  {fault}" for fault in self.faults)]
         tests = [f"  {one}" for one in self.recomputed]
-        sizes = ", ".join(map(str, self.other_sizes))
+        skipped = f" Not checked: {', '.join(self.unchecked)}." if self.unchecked else ""
         return "\n".join(
             [
-                f"{self.cells} printed numbers checked against n = {self.n}.",
+                f"{self.cells} printed {self.kind} checked against n = {self.n}.{skipped}",
                 *(faults if self.faults else ["All of them are possible."]),
                 *(
                     ["What follows from the possible rows (independent answers, one-sided):", *tests]
                     if tests
                     else []
                 ),
-                f"The possible rows would also fit n = {sizes}."
-                if sizes
-                else f"There is no other n up to {2 * self.n} that fits possible rows.",
+                *self._sizes(),
             ]
         )
 
+    def _sizes(self) -> list[str]:
+        if self.other_sizes is None:
+            return []
+        if not self.other_sizes:
+            return [f"There is no other n up to {2 * self.n} that fits possible rows."]
+        fitting = ", ".join(map(str, self.other_sizes[:SIZES_SAID]))
+        more = len(self.other_sizes) - SIZES_SAID
+        return [f"The possible rows would also fit n = {fitting}{f' and {more} more' if more > 0 else ''}."]
 
-@dataclass(frozen=True)
-class _Row:
-    line: int
-    labels: tuple[str, ...]
-    cells: tuple[Decimal, ...]
-    means: bool  # cells are means of ratings, not shares of one whole
 
-    @property
-    def name(self) -> str:
-        return "/".join(self.labels)
+SIZES_SAID = 12
 
 
 def verify(table: Path, n: int, *, items: int = 1) -> Verification:
-    """Check a printed table of shares or means that comes from n participants with one answer per cell.
+    """Check a printed table of shares, percentages, counts or means from n participants, one answer per cell.
 
-    Columns of words are labels, columns of numbers are cells, as printed (the number of decimals counts). The
-    cells of a row are shares of one whole, unless a column is called `mean`; then that column is checked as
-    the mean of `items` whole-number ratings per participant. Raises InputError for a table that cannot be
-    read.
+    The cells of a row are the shares of one whole where most rows add up to 1 (or 100%, or n); else each is
+    checked alone. A column called `mean` or `M` holds means of `items` whole-number ratings per participant.
+    How a table is written: `analysis.printed_table`. Raises InputError where it cannot be read.
     """
-    rows = _read(table)
-    faults = [fault for row in rows for fault in _faults(row, n * items if row.means else n)]
-    bad = {fault.line for fault in faults}
-    good = [row for row in rows if row.line not in bad]
-    fitting = [
-        size
-        for size in range(2, 2 * n + 1)
-        if good and size != n and not any(_faults(row, size) for row in good)
+    printed = read_table(table, n)
+    answers = n * items if printed.kind == "means" else n
+    faults = [
+        fault for row in printed.rows for fault in _faults(row, answers, printed.kind, whole=printed.whole)
     ]
+    bad = {fault.line for fault in faults}
+    good = [row for row in printed.rows if row.line not in bad]
     return Verification(
         n=n,
-        cells=sum(len(row.cells) for row in rows),
+        kind=printed.kind,
+        cells=sum(len(row.cells) for row in printed.rows),
+        unchecked=printed.unchecked,
         faults=tuple(faults),
-        recomputed=tuple(_recompute(good, n)),
-        other_sizes=tuple(fitting),
+        recomputed=tuple(_recompute(good, n)) if printed.whole else (),
+        other_sizes=None
+        if printed.kind == "counts"
+        else tuple(
+            size
+            for size in range(2, 2 * n + 1)
+            if good
+            and size != n
+            and not any(_faults(row, size * answers // n, printed.kind, whole=printed.whole) for row in good)
+        ),
     )
 
 
@@ -164,38 +171,52 @@ def _decimals(printed: Decimal) -> int:
     return max(0, -exponent) if isinstance(exponent, int) else 0
 
 
-def _faults(row: _Row, n: int) -> list[Fault]:
-    impossible = [cell for cell in row.cells if not counts_behind(cell, n)]
-    if impossible:
-        kind = "mean" if row.means else "share"
-        return [Fault(row.line, row.name, f"{cell} is no {kind} of {n} answers") for cell in impossible]
-    if row.means:
-        return []
-    if any(not 0 <= cell <= 1 for cell in row.cells):
-        return [Fault(row.line, row.name, f"shares lie between 0 and 1, not {max(row.cells, key=abs)}")]
-    if _whole(row, n) is None:
-        total = sum(row.cells)
+def _faults(row: PrintedRow, n: int, kind: Kind, *, whole: bool) -> list[Fault]:
+    """What is wrong with a row; cells are shares (of percentages the hundredth), counts or means."""
+    if kind == "counts":
+        return _count_faults(row, n, whole=whole)
+    if kind != "means" and (outside := [cell for cell in row.cells if not 0 <= cell <= 1]):
+        return [Fault(row.line, row.name, f"{_said(outside[0], kind)} is no share: they lie between 0 and 1")]
+    if impossible := [cell for cell in row.cells if not counts_behind(cell, n)]:
+        what = "mean" if kind == "means" else "share"
+        return [Fault(row.line, row.name, f"{_said(cell, kind)} is no {what} of {n} answers")
+                for cell in impossible]  # fmt: skip
+    if whole and _whole(row, n) is None:
+        total = _said(sum(row.cells, Decimal(0)), kind)
         return [Fault(row.line, row.name, f"shares add up to {total}, and no counts of {n} give them")]
     return []
 
 
-def _whole(row: _Row, n: int) -> tuple[int, ...] | None:
+def _count_faults(row: PrintedRow, n: int, *, whole: bool) -> list[Fault]:
+    if outside := [cell for cell in row.cells if not 0 <= cell <= n]:
+        return [Fault(row.line, row.name, f"{outside[0]} is no count among {n} answers")]
+    if whole and sum(row.cells) != n:
+        return [Fault(row.line, row.name, f"counts add up to {sum(row.cells)}, not {n}")]
+    return []
+
+
+def _said(cell: Decimal, kind: Kind) -> str:
+    """A cell as printed."""
+    return f"{cell.scaleb(2)}%" if kind == "percentages" else str(cell)
+
+
+def _whole(row: PrintedRow, n: int) -> tuple[int, ...] | None:
     """Counts of the row that add up to n, if any do."""
-    chosen: list[tuple[int, ...]] = [()]
+    chosen: set[tuple[int, ...]] = {()}
     for cell in row.cells:
-        chosen = [(*before, k) for before in chosen for k in counts_behind(cell, n)]
-    return next((counts for counts in chosen if sum(counts) == n), None)
+        chosen = {(*before, k) for before in chosen for k in counts_behind(cell, n) if k + sum(before) <= n}
+    return next((counts for counts in sorted(chosen) if sum(counts) == n), None)
 
 
-def _recompute(rows: Sequence[_Row], n: int) -> list[Recomputed]:
+def _recompute(rows: Sequence[PrintedRow], n: int) -> list[Recomputed]:
     """The tests of each pair of rows that share their first label and have two answers."""
     found = []
-    by_name: dict[str, list[_Row]] = {}
+    by_name: dict[str, list[PrintedRow]] = {}
     for row in rows:
-        if not row.means and len(row.cells) == 2 and row.labels:
+        if len(row.cells) == 2 and row.labels:
             by_name.setdefault(row.labels[0], []).append(row)
     for name, pair in by_name.items():
-        counts = [_whole(row, n) for row in pair]
+        counts = [_counts(row, n) for row in pair]
         if len(pair) == 2 and counts[0] and counts[1]:
             (k1, _), (k2, _) = counts[0], counts[1]
             student = student_t(_answers(k1, n), _answers(k2, n), "greater")
@@ -204,39 +225,10 @@ def _recompute(rows: Sequence[_Row], n: int) -> list[Recomputed]:
     return found
 
 
+def _counts(row: PrintedRow, n: int) -> tuple[int, ...] | None:
+    return tuple(int(cell) for cell in row.cells) if sum(row.cells) == n else _whole(row, n)
+
+
 def _answers(k: int, n: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     """K ones and n − k zeros."""
     return np.repeat([1.0, 0.0], [k, n - k])
-
-
-def _read(table: Path) -> list[_Row]:
-    try:
-        with table.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.DictReader(file)
-            records = [(reader.line_num, record) for record in reader]
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{table}: cannot be read: {error}") from error
-    if not records or reader.fieldnames is None:
-        raise InputError(f"{table}: holds no rows below its header")
-    numeric = [name for name in reader.fieldnames if all(_number(record[name]) for _, record in records)]
-    means = "mean" in numeric
-    cells = ["mean"] if means else numeric
-    if not cells:
-        raise InputError(f"{table}: no column holds numbers only; cells are printed numbers such as 0.79")
-    labels = [name for name in reader.fieldnames if name not in numeric]
-    return [
-        _Row(
-            line,
-            tuple(record[name] or "" for name in labels),
-            tuple(Decimal(record[name]) for name in cells),
-            means,
-        )
-        for line, record in records
-    ]
-
-
-def _number(text: str | None) -> bool:
-    try:
-        return Decimal(text or "").is_finite()
-    except InvalidOperation:
-        return False

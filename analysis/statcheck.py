@@ -1,13 +1,13 @@
 """Whether the p-values in a text follow from the statistics beside them.
 
-After statcheck (Nuijten et al. 2016, Behavior Research Methods 48): the word "one-sided" or "one-tailed"
-halves a p-value. The direction of a one-sided test is not printed, so either tail will do.
+After statcheck (Nuijten et al. 2016, Behavior Research Methods 48). Where a text leaves more than one reading
+open, any of them will do: a false alarm costs more than a miss.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
@@ -16,12 +16,26 @@ from scipy.special import chdtrc, fdtrc, ndtr, stdtr
 
 from stimuli.errors import InputError
 
-NUMBER = r"[−\-–]?\d*\.?\d+"
-REPORTED = re.compile(
-    rf"(?P<symbol>t|F|r|z|χ2|χ²|chi2)\s*(?:\(\s*(?P<df>{NUMBER}(?:\s*,\s*{NUMBER})?)[^)]*\))?\s*=\s*(?P<value>{NUMBER})"
-    rf"\s*,\s*p\s*(?P<sign>[<>=])\s*(?P<p>{NUMBER})"
+MINUS = "−–-"
+NUMBER = rf"[{MINUS}]?\d*\.?\d+"
+POWER = rf"(?:[eE][{MINUS}]?\d+|\s*[×x·]\s*10\s*\^?\s*\{{?[{MINUS}]\d+\}}?)?"  # 1.2e-5, 1.2 × 10^-5
+EFFECT = (
+    rf"(?:d|dz|g|r|SE|b|B|β|η2|η²|ηp2|ηp²|ω2|ω²|V|W|M|SD)\s*=\s*{NUMBER}|\d\d\s*%\s*CI\s*[:=]?\s*\[[^\]]*\]"
 )
-ONE_SIDED = re.compile(r"one[-\s](?:sided|tailed)", re.IGNORECASE)
+REPORTED = re.compile(
+    rf"(?<![\w.])(?P<symbol>t|F|r|z|Z|H|[χΧX]\s?\^?\s?[2²]|chi2|chi-squared?)"
+    rf"\s*(?:\(\s*(?:df\s*=\s*)?(?P<df>{NUMBER}(?:\s*,\s*{NUMBER})?)[^)]*\))?"
+    rf"\s*=\s*(?P<value>{NUMBER})(?![\d.])"
+    rf"(?:\s*[,;]\s*(?:{EFFECT}))*\s*[,;:]?\s*\(?\s*"
+    rf"p\s*(?P<sign>[<>=≤≥])\s*(?P<p>{NUMBER}{POWER})"
+)
+ONE_SIDED = re.compile(r"one[-\s](?:sided|tailed)|directional", re.IGNORECASE)
+TWO_SIDED = re.compile(r"two[-\s](?:sided|tailed)", re.IGNORECASE)
+OTHER_P = re.compile(rf"[\w-]*(?:adjusted|corrected)\s+p\s*[<>=≤≥]\s*{NUMBER}", re.IGNORECASE)
+CORRECTED = re.compile(r"adjust|correct|bonferroni|holm|hochberg|greenhouse|huynh", re.IGNORECASE)
+MARKUP = re.compile(
+    r"\\(?:textit|textbf|emph|mathit|mathrm|text)\{([^{}\n]*)\}|[*$]|(?<!\w)_(?=\w)|(?<=\w)_(?!\w)"
+)
 
 
 @dataclass(frozen=True)
@@ -55,56 +69,94 @@ class Reading:
     def __str__(self) -> str:
         if not self.checked:
             return "No test in the form t(33) = 4.82, p < .001 is reported here."
-        found = f"{len(self.checked)} reported tests recomputed, {len(self.faults)} inconsistent."
+        n, bad = len(self.checked), len(self.faults)
+        found = f"{n} reported test{'s' * (n > 1)} recomputed, {bad} inconsistent."
         return "\n".join([found, *(f"  {one}" for one in self.faults)])
 
 
 def check_file(path: Path) -> Reading:
     """Recompute every reported test of a text file."""
     try:
-        return Reading(tuple(check_text(path.read_text(encoding="utf-8-sig"))))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read as UTF-8 text: {error}") from error
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is no UTF-8 text (a PDF or Word file?); save it as plain text") from error
+    return Reading(tuple(check_text(text)))
 
 
 def check_text(text: str, alpha: float = 0.05) -> list[Checked]:
-    """Recompute every `t(33) = 4.82, p < .001` and its kin (F, r, z, χ²) in a text."""
-    return [_check(match, text, alpha) for match in REPORTED.finditer(text) if _known(match)]
+    """Recompute every `t(33) = 4.82, p < .001` and its kin (F, r, z, χ², H) in a text, plain or marked up.
+
+    A test called one-sided (or two-sided) right beside it is taken at its word; where the text speaks of
+    one-sided tests elsewhere, either will do. A p that is called corrected may be larger than recomputed.
+    """
+    plain = re.sub(r"\\chi\s*\^?\{?2\}?", "χ2", text)
+    plain = MARKUP.sub(lambda match: match.group(1) or "", plain)
+    return list(_each(plain, alpha))
 
 
-def _known(match: re.Match[str]) -> bool:
-    return match["symbol"] == "z" or match["df"] is not None
+def _each(text: str, alpha: float) -> Iterator[Checked]:
+    for match in REPORTED.finditer(text):
+        symbol = SYMBOLS.get(match["symbol"][0], match["symbol"])
+        df = [float(_decimal(number)) for number in (match["df"] or "").split(",") if number.strip()]
+        if (
+            len(df) >= NEEDED[symbol]
+            and 0 <= _p_value(match["p"]) <= 1
+            and not (symbol == "t" and len(df) > 1)
+        ):
+            yield _check(match, symbol, df, text, alpha)
 
 
-def _check(match: re.Match[str], text: str, alpha: float) -> Checked:
-    value, p = _decimal(match["value"]), _decimal(match["p"])
+def _check(match: re.Match[str], symbol: str, df: list[float], text: str, alpha: float) -> Checked:
+    value, p = _decimal(match["value"]), _p_value(match["p"])
     half = Decimal(5).scaleb(-_places(value) - 1)
-    one_sided = ONE_SIDED.search(_rest_of_sentence(text, match.end())) is not None
-    df = [float(number) for number in (match["df"] or "").split(",") if number.strip()]
-    tail = TAILS[match["symbol"]]
-    allowed = [tail(float(edge), df) for edge in (max(abs(value) - half, Decimal(0)), abs(value) + half)]
-    low, high = min(allowed), max(allowed)
-    ranges = [(low / 2, high / 2), (1 - high / 2, 1 - low / 2)] if one_sided else [(low, high)]
+    edges = (max(abs(value) - half, Decimal(0)), abs(value) + half)
+    allowed = sorted(TAILS[symbol](float(edge), df) for edge in edges)
+    ranges = list(_readings(match, (allowed[0], allowed[1]), text, sided=symbol != "F" or df[0] == 1))
     consistent = any(_agrees(match["sign"], p, *between) for between in ranges)
-    said = p < Decimal(str(alpha)) or (match["sign"] == "<" and p <= Decimal(str(alpha)))
+    if not consistent and _is_corrected(match, text):
+        consistent = match["sign"] not in "<≤" and float(p) > ranges[0][0]
+    said = p < Decimal(str(alpha)) or (match["sign"] in "<≤" and p <= Decimal(str(alpha)))
     decision = not any(said == (edge < alpha) for between in ranges for edge in between)
-    best = ranges[0]
     return Checked(
         line=text.count("\n", 0, match.start()) + 1,
-        text=match.group(0),
-        low=best[0],
-        high=best[1],
+        text=" ".join(match.group(0).split()),
+        low=ranges[0][0],
+        high=ranges[0][1],
         consistent=consistent,
         decision_error=not consistent and decision,
     )
 
 
+def _readings(
+    match: re.Match[str], two_sided: tuple[float, float], text: str, *, sided: bool
+) -> Iterator[tuple[float, float]]:
+    """The ranges of p that the words allow, the most literal first; of a one-sided test either tail."""
+    low, high = two_sided
+    beside = _rest_of_sentence(text, match.end()).split(" p ")[0]
+    one = [(low / 2, high / 2), (1 - high / 2, 1 - low / 2)] if sided else []
+    if ONE_SIDED.search(beside) and one:
+        yield from one
+    else:
+        yield two_sided
+        if not TWO_SIDED.search(beside) and ONE_SIDED.search(text):
+            yield from one
+
+
+def _is_corrected(match: re.Match[str], text: str) -> bool:
+    """Whether the sentence calls this p corrected; a corrected p of its own beside it does not count."""
+    start = max(text.rfind(end, 0, match.start()) for end in (". ", ".\n", "; ", "\n\n"))
+    sentence = text[start + 1 : match.start()] + OTHER_P.sub("", _rest_of_sentence(text, match.end()))
+    return CORRECTED.search(sentence) is not None
+
+
 def _agrees(sign: str, p: Decimal, low: float, high: float) -> bool:
-    if sign == "<":
+    if sign in "<≤":
         return low < float(p)
-    if sign == ">":
+    if sign in ">≥":
         return high > float(p)
-    half = 0.5 * 10.0 ** -_places(p)
+    half = float(Decimal(5).scaleb(-_places(p) - 1))
     return low <= float(p) + half and high >= float(p) - half and p > 0
 
 
@@ -114,7 +166,13 @@ def _rest_of_sentence(text: str, start: int) -> str:
 
 
 def _decimal(text: str) -> Decimal:
-    return Decimal(text.replace("−", "-").replace("–", "-"))
+    return Decimal(re.sub(f"[{MINUS}]", "-", text.strip()))
+
+
+def _p_value(text: str) -> Decimal:
+    """A printed probability, in powers of ten if need be."""
+    mantissa, _, exponent = re.sub(r"\s*[×x·]\s*10\s*\^?\s*\{?", "e", text).rstrip("}").lower().partition("e")
+    return _decimal(mantissa).scaleb(int(_decimal(exponent or "0")))
 
 
 def _places(value: Decimal) -> int:
@@ -130,12 +188,12 @@ def _of_t(value: float, df: list[float]) -> float:
     return float(2 * stdtr(df[0], -value))
 
 
+SYMBOLS = {"Z": "z", "χ": "χ²", "Χ": "χ²", "X": "χ²", "c": "χ²", "H": "χ²"}  # by first letter
+NEEDED = {"t": 1, "r": 1, "z": 0, "F": 2, "χ²": 1}  # degrees of freedom
 TAILS: dict[str, Callable[[float, list[float]], float]] = {  # two-sided p of a statistic ≥ 0
     "t": _of_t,
     "r": _of_r,
     "z": lambda value, df: float(2 * ndtr(-value)),  # noqa: ARG005
     "F": lambda value, df: float(fdtrc(df[0], df[1], value)),
-    "χ2": lambda value, df: float(chdtrc(df[0], value)),
     "χ²": lambda value, df: float(chdtrc(df[0], value)),
-    "chi2": lambda value, df: float(chdtrc(df[0], value)),
 }

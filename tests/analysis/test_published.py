@@ -7,13 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analysis.apa import share, t_sentence
-from analysis.published import HIGHER, TABLE_II, N, counts_behind, verify
-from analysis.statcheck import check_file, check_text
-from analysis.statistics.student_t import student_t
-from analysis.statistics.t_test import Alternative
+from analysis.apa import share
+from analysis.published import HIGHER, TABLE_II, N, Verification, counts_behind, verify
+from analysis.statcheck import check_text
 from stimuli.errors import InputError
-from tests.analysis.statistics.test_t_tests import choices, ratings
 
 
 @pytest.fixture
@@ -40,32 +37,90 @@ def test_no_other_number_of_participants_below_62_gives_the_published_table(tabl
     assert verify(table_ii, n=N).other_sizes == (62, 66, 68)
 
 
+def check(folder: Path, text: str, n: int, items: int = 1) -> Verification:
+    path = folder / "t.csv"
+    path.write_text(text, encoding="utf-8")
+    return verify(path, n=n, items=items)
+
+
+GOOD_ROWS = "b,0.3,0.7\nc,0.5,0.5\n"
+
+
 @pytest.mark.parametrize(
-    ("rows", "n", "fault"),
+    ("row", "n", "fault"),
     [
-        ("a,0.80,0.20\n", 34, "0.80 is no share of 34 answers"),
-        ("a,1.5,-0.5\n", 10, "shares lie between 0 and 1"),
-        ("a,0.3,0.3\n", 10, "shares add up to 0.6"),
+        ("a,0.80,0.20", 34, "line 4, a: 0.80 is no share of 34 answers"),
+        ("a,1.5,-0.5", 10, "line 4, a: 1.5 is no share: they lie between 0 and 1"),
+        ("a,0.3,0.3", 10, "line 4, a: shares add up to 0.6, and no counts of 10 give them"),
     ],
 )
-def test_impossible_shares_are_named(tmp_path: Path, rows: str, n: int, fault: str) -> None:
-    path = tmp_path / "t.csv"
-    path.write_text("clip,yes,no\n" + rows, encoding="utf-8")
-    assert any(fault in str(one) for one in verify(path, n=n).faults)
+def test_impossible_shares_are_named(tmp_path: Path, row: str, n: int, fault: str) -> None:
+    found = check(tmp_path, f"clip,yes,no\n{GOOD_ROWS}{row}\n", n)
+    assert str(next(one for one in found.faults if one.line == 4)) == fault
 
 
-def test_means_of_ratings_are_checked_too(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
-    path.write_text("emotion,mean,sd\njoy,3.88,1.07\nfear,3.87,1.01\n", encoding="utf-8")
-    assert [fault.line for fault in verify(path, n=34).faults] == [3]
-    assert verify(path, n=34, items=50).faults == ()
+@pytest.mark.parametrize(
+    ("text", "n", "kind", "faults"),
+    [
+        ("clip,yes,no\na,27,7\nb,30,4\nc,30,5\n", 34, "counts", ["line 4, c: counts add up to 35, not 34"]),
+        ("clip,yes,no\na,27,7\nb,35,-1\n", 34, "counts", ["line 3, b: 35 is no count among 34 answers"]),
+        ("clip;yes;no\na;79%;21%\nb;80%;20%\n", 34, "percentages",
+         ["line 3, b: 80% is no share of 34 answers", "line 3, b: 20% is no share of 34 answers"]),
+        ("clip,yes,no\na,79,21\nb,94,6\n", 34, "percentages", []),
+        ("clip;yes;no\na;0,79;0,21\nb;0,94;0,06\n", 34, "shares", []),
+        ("clip,recognised\na,0.79\nb,0.94\n", 34, "shares", []),  # of several wholes
+        ("no,clip,yes,no\n1,a,.79,.21\n2,b,.94,.06\n", 34, "shares", []),  # rows are numbered
+        ("emotion,M,SD,n\njoy,3.88,1.07,34\nfear,3.87,1.01,34\n", 34, "means",
+         ["line 3, fear: 3.87 is no mean of 34 answers"]),
+    ],
+)  # fmt: skip
+def test_each_kind_of_table_is_checked_as_what_it_is(
+    tmp_path: Path, text: str, n: int, kind: str, faults: list[str]
+) -> None:
+    found = check(tmp_path, text, n)
+    assert found.kind == kind and f" printed {kind} checked" in str(found)
+    assert [str(fault) for fault in found.faults] == faults
 
 
-def test_a_table_without_numbers_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
-    path.write_text("a,b\nx,y\n", encoding="utf-8")
-    with pytest.raises(InputError, match="no column holds numbers only"):
-        verify(path, n=34)
+def test_counts_and_percentages_lead_to_the_tests_of_shares(tmp_path: Path) -> None:
+    texts = ("27,7\na,low,9,25", "79%,21%\na,low,26%,74%", "0.79,0.21\na,low,0.26,0.74")
+    found = [check(tmp_path, f"clip,level,up,down\na,high,{text}\n", 34).recomputed for text in texts]
+    assert found[0] == found[1] == found[2] and found[0][0].counts == ((27, 7), (9, 25))
+
+
+def test_means_are_of_as_many_answers_as_there_are_items(tmp_path: Path) -> None:
+    text = "emotion,mean,sd\njoy,3.88,1.07\nfear,3.87,1.01\n"
+    assert [fault.line for fault in check(tmp_path, text, 34).faults] == [3]
+    found = check(tmp_path, text, 34, items=50)
+    assert found.faults == () and found.unchecked == ("sd",) and 35 in (found.other_sizes or ())
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a,b\nx,y\n", r"t\.csv: no column holds numbers to check"),
+        ("a,b\n", r"t\.csv: holds no rows below its header"),
+        ("", r"t\.csv: holds no rows below its header"),
+        (
+            "clip,yes,no\na,0.3,0.7\nb,0.3,O.7\nc,0.3,0.7\n",
+            r"t\.csv:3: column 'no' holds numbers, but 'O\.7'",
+        ),
+        ("clip,yes,no\na,0.3,0.7\nb,0.3,\nc,0.3,0.7\n", r"t\.csv:3: column 'no' is empty here"),
+        ("clip,yes,no\na,0.3,0.7\nb,0.3\n", r"t\.csv:3: has 2 cells; the header has 3"),
+        ("clip,yes,no\na,0,3,0,7\n", r"t\.csv:2: has 5 cells; the header has 3"),
+    ],
+)
+def test_a_table_that_cannot_be_read_is_refused_at_its_line(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        check(tmp_path, text, 34)
+
+
+def test_a_table_that_is_not_there_is_refused_in_plain_words(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"none\.csv: cannot be read: No such file or directory$"):
+        verify(tmp_path / "none.csv", n=34)
+    (tmp_path / "t.csv").write_bytes("clip,yes\ncafé,0.3\n".encode("latin-1"))
+    with pytest.raises(InputError, match=r"t\.csv: is not UTF-8"):
+        verify(tmp_path / "t.csv", n=34)
 
 
 @given(st.integers(1, 120), st.integers(0, 120))
@@ -74,54 +129,8 @@ def test_what_we_print_of_a_count_leads_back_to_the_count(n: int, k: int) -> Non
     assert k in counts_behind(Decimal(share(k, n)), n)
 
 
-@given(ratings, ratings, st.sampled_from(["greater", "less", "two-sided"]))
-def test_our_sentences_pass_the_check(first: list[int], second: list[int], alternative: Alternative) -> None:
-    sentence = t_sentence(student_t(first, second, alternative), None, 0.05)
-    (checked,) = check_text(f"We found: {sentence}.")
-    assert checked.consistent and not checked.decision_error
-
-
-@pytest.mark.parametrize(
-    ("sentence", "consistent", "decision_error"),
-    [
-        ("t(33) = 4.82, p < .001", True, False),
-        ("t(66) = 2.26, p = .014, one-sided", True, False),
-        ("t(66) = 2.26, p = .014", False, False),
-        ("t(66) = 1.70, p = .047, one-tailed", True, False),
-        ("t(66) = 1.20, p = .01", False, True),
-        ("F(2, 30) = 3.32, p = .050", True, False),
-        ("r(40) = .31, p = .046", True, False),
-        ("χ2(1, N = 90) = 3.84, p = .05", True, False),
-        ("z = 1.96, p = .05", True, False),
-        ("t(10) = 9.99, p = .000", False, False),
-    ],
-)
-def test_reported_tests_are_recomputed(sentence: str, consistent: bool, decision_error: bool) -> None:
-    (checked,) = check_text(f"First.\nThe effect was clear, {sentence}. Nothing else.")
-    assert (checked.consistent, checked.decision_error, checked.line) == (consistent, decision_error, 2)
-
-
-def test_an_undefined_test_makes_no_claim_to_check() -> None:
-    sentence = t_sentence(student_t(choices(34), choices(0)), None, 0.05)
-    assert sentence == "t undefined: zero variance in both groups, df = 66, n = 34, n = 34"
-    assert check_text(sentence) == []
-
-
 def test_a_verification_reads_as_sentences(table_ii: Path) -> None:
     said = str(verify(table_ii, n=N))
     assert "line 3, arc/low: shares add up to 2.00" in said
     assert "follow: 19 against 10 of 34; t(66) = 2.26, p = .014, one-sided" in said
     assert check_text(said) and all(one.consistent for one in check_text(said))
-
-
-def test_a_paper_is_read_line_by_line(tmp_path: Path) -> None:
-    paper = tmp_path / "paper.md"
-    paper.write_text(
-        "It held, t(66) = 2.26, p = .014, one-sided.\nSo did t(66) = 1.20, p = .01.\n", encoding="utf-8"
-    )
-    found = check_file(paper)
-    assert [one.line for one in found.faults] == [2]
-    assert str(found).splitlines()[0] == "2 reported tests recomputed, 1 inconsistent."
-    assert "the decision changes" in str(found)
-    with pytest.raises(InputError, match="cannot be read"):
-        check_file(tmp_path / "none.md")
