@@ -83,12 +83,9 @@ def _answers(protocol: Protocol, n: int, effect: float, rng: random.Random) -> I
             part = protocol.parts[trial.part]
             if trial.practice or not part.due(given):
                 continue
-            for question in part.questions:
-                if not question.asked_at(trial.number):
-                    continue
-                for item, answer in choose(
-                    protocol, protocol.stimuli[trial.stimulus], question, manner, rng
-                ).items():
+            judged = protocol.judged[trial.stimulus]
+            for question, _, _ in trial.asked(part):
+                for item, answer in choose(protocol, judged, question, manner, rng).items():
                     given.setdefault(item, set()).add(answer)
                     yield {
                         "participant": f"simulated-{slot}",

@@ -22,6 +22,7 @@ class Balance:
     positions: dict[str, tuple[int, ...]]  # thing → how often it stood first, second, …
     follows: dict[tuple[str, str], int]  # (a, b) → how often b came straight after a
     first: dict[str, int]  # stimulus → how often it came first within its block
+    left: dict[str, int]  # stimulus of a pair → how often it stood on the left
 
     @property
     def position_range(self) -> tuple[int, int]:
@@ -32,7 +33,13 @@ class Balance:
     def __str__(self) -> str:
         positions, follows = _range(*self.position_range), _range(*self.follows_range)
         follow = f", after each other {follows}" if any(self.follows.values()) else ""
-        return f"in each position {positions}{follow}"
+        left = f", each side {_range(*self.left_range)}" if self.left else ""
+        return f"in each position {positions}{follow}{left}"
+
+    @property
+    def left_range(self) -> tuple[int, int]:
+        """Least and largest count of a stimulus of a pair on one side."""
+        return min(self.left.values()), max(self.left.values())
 
     @property
     def follows_range(self) -> tuple[int, int]:
@@ -50,27 +57,31 @@ def _balance(protocol: Protocol, part: Part, plans: Iterable[Plan]) -> Balance:
     alike = part.order.blocks[0] if part.order.blocks else None
 
     def thing(stimulus: str) -> str:
-        return (protocol.stimuli[stimulus].feature(alike) if alike else stimulus) or stimulus
+        return (protocol.judged[stimulus].feature(alike) if alike else stimulus) or stimulus
 
     things = tuple(dict.fromkeys(map(thing, part.stimuli)))
     standing: Counter[tuple[str, int]] = Counter()
     follows = Counter({(a, b): 0 for a in things for b in things if a != b})
     first: Counter[str] = Counter()
+    left = Counter({f"{stimulus} in {pair}": 0 for pair, two in part.pairs.items() for stimulus in two})
     places = 0
     for plan in plans:
-        shown = [trial.stimulus for trial in plan.trials if trial.part == part.id and not trial.practice]
+        trials = [trial for trial in plan.trials if trial.part == part.id and not trial.practice]
+        shown = [trial.stimulus for trial in trials]
         blocks = [list(block) for _, block in groupby(shown, key=thing)]
         sequence = [thing(block[0]) for block in blocks]
         places = max(places, len(sequence))
         standing.update((name, place) for place, name in enumerate(sequence))
         follows.update(pairwise(sequence))
         first.update(block[0] for block in blocks if len(block) > 1)
+        left.update(f"{trial.pair[0]} in {trial.stimulus}" for trial in trials if trial.pair)
     return Balance(
         part=part.id,
         things=things,
         positions={name: tuple(standing[name, place] for place in range(places)) for name in things},
         follows=dict(follows),
         first=dict(first),
+        left=dict(left),
     )
 
 
@@ -78,15 +89,14 @@ def orders_csv(plans: Sequence[Plan]) -> str:
     """Every trial of every plan, one row each, as a table for a spreadsheet."""
     table = io.StringIO()
     rows = csv.writer(table)
-    rows.writerow(["slot", "part", "trial", "stimulus", "reference", "items", "options"])
+    rows.writerow(["slot", "part", "trial", "stimulus", "reference", "left", "items", "options"])
     for plan in plans:
         for trial in plan.trials:
             items, options = (
                 " | ".join(" ".join(q) for q in shown) for shown in (trial.items, trial.options)
             )
-            rows.writerow(
-                [plan.slot, trial.part, trial.number, trial.stimulus, trial.reference or "", items, options]
-            )
+            clips = (trial.stimulus, trial.reference or "", trial.pair[0] if trial.pair else "")
+            rows.writerow([plan.slot, trial.part, trial.number, *clips, items, options])
     return table.getvalue()
 
 

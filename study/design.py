@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -20,6 +20,7 @@ class PartDesign:
     factors: dict[str, list[str]]
     between: bool  # whether a participant sees but some of the stimuli
     pages: int  # that one participant answers
+    pairs: list[str]
     items: list[str]
     order: str
     only_if: dict[str, list[str]]
@@ -56,6 +57,8 @@ class Design:
             yield f"{part.part} ({subjects}, {part.pages} {'page' if part.pages == 1 else 'pages'})"
             for factor, levels in part.factors.items():
                 yield f"  {factor:<10} {', '.join(levels)}"
+            if part.pairs:
+                yield f"  {'pairs':<10} {', '.join(part.pairs)}"
             yield f"  {'items':<10} {', '.join(part.items)}"
             yield f"  {'order':<10} {part.order}"
             if part.only_if:
@@ -80,7 +83,7 @@ def design(protocol: Protocol) -> Design:
 
 
 def _part(protocol: Protocol, part: Part, evenness: str) -> PartDesign:
-    stimuli = [protocol.stimuli[stimulus] for stimulus in part.stimuli]
+    stimuli = [protocol.stimuli[id_] for id_ in dict.fromkeys(_seen(part))]
     named = {
         "gesture": [stimulus.gesture for stimulus in stimuli],
         "modulation": [stimulus.name for stimulus in stimuli if stimulus.name],
@@ -91,9 +94,15 @@ def _part(protocol: Protocol, part: Part, evenness: str) -> PartDesign:
         part=part.id,
         factors={factor: list(dict.fromkeys(levels)) for factor, levels in named.items() if levels},
         between=part.shown is not None,
-        pages=len(stimuli) if part.shown is None else part.shown,
+        pages=len(part.stimuli) if part.shown is None else part.shown,
+        pairs=[" or ".join(pair) for pair in part.pairs.values()],
         items=[item for question in part.questions for item in question.items],
         order=described(part.order),
         only_if={item: list(answers) for item, answers in part.only_if.items()},
         balance=evenness,
     )
+
+
+def _seen(part: Part) -> Iterable[str]:
+    """The ids of what is judged; of pairs, those of both."""
+    return [id_ for pair in part.pairs.values() for id_ in pair] or part.stimuli

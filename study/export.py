@@ -5,12 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from study.orders import Trial
 from study.participants import Kind
 from study.protocol import Protocol
 from study.questions import Question
@@ -23,19 +24,20 @@ COLUMNS = {
     "participant": "Random name; says nothing about order or person.",
     "part": "The study's part, or 'demographics'.",
     "trial": "Place within the part, from 1; empty for demographics.",
-    "stimulus": "Id of the judged clip; empty for demographics.",
+    "stimulus": "Id of the judged clip or pair of clips; empty for demographics.",
     "item": "What was answered.",
     "response": "The answer; empty where none was given.",
     "rt_ms": "From the end of the first full view of the last clip to the last change of this answer, in ms.",
     "order": "Place of the trial among all trials of the session, from 1.",
-    "plays": "How often the clip was played to its end.",
-    "played_s": "Seconds truly played in its first full view.",
+    "plays": "How often the clip was played to its end; of a pair, the one played less.",
+    "played_s": "Seconds truly played in its first full view; of a pair, of both.",
     "shown_at": "When the server first handed out the page, UTC.",
     "answered_at": "When the server stored the answer, UTC.",
     "seed": "Seed of this participant's orders.",
-    "stimulus_sha256": "Hash of the clip's file; leads to all its parameters in manifest.json.",
+    "stimulus_sha256": "Hash of the clip's file (of a pair, both); leads to its parameters in manifest.json.",
     "protocol_sha256": "Hash of the protocol this participant took part in.",
     "session": "'participant', or 'test' or 'simulated', which are no data.",
+    "left": "Of a pair: the clip on the left (on narrow screens above). Empty otherwise.",
 }
 
 
@@ -68,9 +70,10 @@ def rows(
                     "shown_at": _moment(response.shown_at),
                     "answered_at": _moment(response.answered_at),
                     "seed": session.plan.seed,
-                    "stimulus_sha256": (clips or {}).get(step.trial.stimulus, "") if step.trial else "",
+                    "stimulus_sha256": _hashes(step.trial, clips or {}),
                     "protocol_sha256": session.protocol_sha256,
                     "session": kind,
+                    "left": step.trial.pair[0] if step.trial and step.trial.pair else "",
                 }
 
 
@@ -132,6 +135,7 @@ def codebook(protocol: Protocol, *, kind: Kind = "participant") -> dict[str, Any
                 "title": str(part.title),
                 "stimuli": list(part.stimuli),
                 "references": dict(part.references),
+                "pairs": {pair: list(two) for pair, two in part.pairs.items()},
                 "items": _items(part.questions),
             }
             for part in protocol.parts.values()
@@ -165,10 +169,17 @@ def _counts(page: Step) -> bool:
 
 
 def _played(response: Response) -> dict[str, str]:
-    view = next((view for view in response.submission.views if view.role == "clip"), None)
-    if view is None:
+    views = [view for view in response.submission.views if view.role != "reference"]
+    if not views:
         return {"plays": "", "played_s": ""}
-    return {"plays": str(view.plays), "played_s": f"{view.played_s:.3f}"}
+    plays, played_s = min(view.plays for view in views), sum(view.played_s for view in views)
+    return {"plays": str(plays), "played_s": f"{played_s:.3f}"}
+
+
+def _hashes(trial: Trial | None, clips: Mapping[str, str]) -> str:
+    """The hash of the clip's file; of a pair those of the left and the right one."""
+    shown = () if trial is None else trial.pair or (trial.stimulus,)
+    return " ".join(clips.get(stimulus, "") for stimulus in shown).strip()
 
 
 def _moment(moment: datetime) -> str:

@@ -7,7 +7,7 @@ exactly, and any run of slots nearly. `ALGORITHM` names this drawing; whoever ch
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from math import lcm
@@ -16,26 +16,37 @@ from typing import TypeVar
 from stimuli.errors import InputError
 from study.chance import Stream
 from study.designs import latin_square, williams
-from study.protocol import PRACTICE, Part, Protocol, Stimulus
-from study.protocol.parts import BETWEEN, Alike, Method
+from study.protocol import BESIDE, PRACTICE, Pair, Part, Protocol, Stimulus
+from study.protocol.parts import BETWEEN, Method
+from study.protocol.stimulus import Alike
 from study.questions import Question
 
 ALGORITHM = "orders/1"
 MAX_TRIES = 20_000  # shuffles until one keeps to `max_run`
 T = TypeVar("T")
+Judged = Stimulus | Pair
+Shown = tuple[Question, tuple[str, ...], tuple[str, ...]]
+"""A question with its items and its options in the order shown; () as written."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One page of one participant: a clip (after its reference, if there is one) and the questions on it."""
+    """One page of one participant: a clip (after its reference), or a pair, and the questions on it."""
 
     part: str
     number: int  # 1, 2, … within the part; 0 for practice
-    stimulus: str
+    stimulus: str  # or the id of a pair
     reference: str | None  # clip shown before it
     items: tuple[tuple[str, ...], ...]  # per question: item ids in the order shown
     options: tuple[tuple[str, ...], ...]  # per question: option ids in the order shown (sides balanced)
     practice: bool = False
+    pair: tuple[str, str] | None = None  # the clips side by side, left and right
+
+    def asked(self, part: Part) -> Iterator[Shown]:
+        """The questions on this page."""
+        for question, items, options in zip(part.questions, self.items, self.options, strict=True):
+            if question.asked_at(self.number):
+                yield question.among(self.pair) if self.pair else question, items, options
 
 
 @dataclass(frozen=True)
@@ -57,11 +68,13 @@ def draw_plan(protocol: Protocol, slot: int) -> Plan:
         items = tuple(items for items, _ in shown)
         options = tuple(options for _, options in shown)
         if protocol.practice and protocol.practice.ask == part.id:
-            trials.append(Trial(part.id, 0, PRACTICE, None, items, options, practice=True))
-        ordered = draw.ordered(part, [protocol.stimuli[stimulus] for stimulus in part.stimuli])
+            pair = (PRACTICE, BESIDE) if part.pairs else None
+            trials.append(Trial(part.id, 0, PRACTICE, None, items, options, practice=True, pair=pair))
+        ordered = draw.ordered(part, [protocol.judged[id_] for id_ in part.stimuli])
+        sides = draw.sides(part)
         trials += [
-            Trial(part.id, number, stimulus.id, part.reference_of(stimulus.id), items, options)
-            for number, stimulus in enumerate(ordered, start=1)
+            Trial(part.id, number, id_, part.reference_of(id_), items, options, pair=sides.get(id_))
+            for number, id_ in enumerate((judged.id for judged in ordered), start=1)
         ]
     return Plan(slot, Stream(protocol.seed, slot).key, ALGORITHM, tuple(trials))
 
@@ -83,12 +96,14 @@ def cycle(protocol: Protocol) -> int:
     lengths = [1]
     for part in protocol.parts.values():
         lengths += [len(question.option_orders) for question in part.questions]
-        groups = _groups(part, [protocol.stimuli[stimulus] for stimulus in part.stimuli])
+        groups = _groups(part, [protocol.judged[id_] for id_ in part.stimuli])
         method = "williams" if part.order.levels else part.order.stimuli
         within = lcm(*(_rows(method, len(group)) for group in groups))
         outer = part.order.blocks[1] if part.order.blocks else "fixed"
         blocks = _rows(outer, len(groups))
         lengths.append(blocks * within if outer == BETWEEN else lcm(blocks, within))
+        if part.pairs:
+            lengths.append(2 * part.groups)
     return lcm(*lengths)
 
 
@@ -116,7 +131,13 @@ class _Draw:
             items = self.stream(f"items {at}").shuffled(items)
         return items, self.balanced(question.option_orders, f"options {at}")
 
-    def ordered(self, part: Part, stimuli: Sequence[Stimulus]) -> tuple[Stimulus, ...]:
+    def sides(self, part: Part) -> dict[str, tuple[str, str]]:
+        """Each pair with its left clip first: half of the pairs turned round, each by every other slot."""
+        own = replace(self, slot=self.slot // part.groups)
+        turned = own.balanced_within(list(part.pairs.values()), "sides")
+        return {pair: (left, right) for pair, (left, right) in zip(part.pairs, turned, strict=True)}
+
+    def ordered(self, part: Part, stimuli: Sequence[Judged]) -> tuple[Judged, ...]:
         """The stimuli in the order of this slot."""
         order = part.order
         if order.max_run:
@@ -125,7 +146,7 @@ class _Draw:
         among = len(groups) if order.blocks and order.blocks[1] == BETWEEN else 1
         own = replace(self, slot=self.slot // among)  # those who see the same group share its rows out
         if order.levels:
-            groups = own.balanced_within(groups)
+            groups = own.balanced_within(groups, "levels")
         elif order.stimuli:
             groups = [own.arranged(order.stimuli, group, f"group {at}") for at, group in enumerate(groups)]
         if order.blocks:
@@ -142,7 +163,7 @@ class _Draw:
             return (self.balanced(things, purpose),)
         return self.stream(purpose).shuffled(things) if method == "shuffled" else tuple(things)
 
-    def balanced_within(self, groups: Sequence[tuple[T, ...]]) -> list[tuple[T, ...]]:
+    def balanced_within(self, groups: Sequence[tuple[T, ...]], purpose: str) -> list[tuple[T, ...]]:
         """Each group in an order of its own, the orders spread evenly over the groups.
 
         The orders are the rows of a Williams square. With two levels and six principles, three begin
@@ -152,12 +173,12 @@ class _Draw:
         for at, group in enumerate(groups):
             rows = williams(len(group))
             block, shift = divmod(self.slot, len(rows))
-            stream = Stream(self.seed, self.part, "levels", len(rows), block)
+            stream = Stream(self.seed, self.part, purpose, len(rows), block)
             places = stream.shuffled(range(len(groups)))
             ordered.append(tuple(group[level] for level in rows[(places[at] + shift) % len(rows)]))
         return ordered
 
-    def without_runs(self, stimuli: Sequence[Stimulus], max_run: Mapping[Alike, int]) -> tuple[Stimulus, ...]:
+    def without_runs(self, stimuli: Sequence[Judged], max_run: Mapping[Alike, int]) -> tuple[Judged, ...]:
         """A shuffle in which no more than so many in a row are alike; all such orders are equally likely."""
         stream = self.stream("without runs")
         for _ in range(MAX_TRIES):
@@ -170,16 +191,16 @@ class _Draw:
         )
 
 
-def _longest_run(stimuli: Sequence[Stimulus], alike: Alike) -> int:
+def _longest_run(stimuli: Sequence[Judged], alike: Alike) -> int:
     return max(len(list(run)) for _, run in groupby(stimuli, key=lambda stimulus: stimulus.feature(alike)))
 
 
-def _groups(part: Part, stimuli: Sequence[Stimulus]) -> list[tuple[Stimulus, ...]]:
+def _groups(part: Part, stimuli: Sequence[Judged]) -> list[tuple[Judged, ...]]:
     """The blocks of a part, or all stimuli as one."""
     if not part.order.blocks:
         return [tuple(stimuli)]
     alike, _ = part.order.blocks
-    groups: dict[str | None, list[Stimulus]] = {}
+    groups: dict[str | None, list[Judged]] = {}
     for stimulus in stimuli:
         groups.setdefault(stimulus.feature(alike), []).append(stimulus)
     return [tuple(group) for group in groups.values()]

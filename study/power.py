@@ -3,7 +3,8 @@
 Each hypothesis is taken at the smallest level its correction can leave a single test (alpha / m). Ratings:
 the effect is d, the difference in standard deviations. Choices between two levels: the effect is the share h
 of participants who choose the outcome for the first level when 1 - h choose it for the second, answers given
-independently; the test counted is McNemar's exact one, whatever test the hypothesis names.
+independently; the test counted is McNemar's exact one, whatever test the hypothesis names. Pairs: the share
+of participants who prefer the first, by the exact binomial test.
 """
 
 from __future__ import annotations
@@ -77,6 +78,13 @@ def mcnemar_power(n: int, first: float, second: float, alpha: float, *, two_side
     return float(stats.binom.pmf(pairs, n, changed) @ rejected)
 
 
+def preference_power(n: int, share: float, alpha: float, *, two_sided: bool = False) -> float:
+    """Exact power of the binomial test against one half; of a two-sided one both tails count."""
+    if not two_sided:
+        return _rejected(n, share, alpha)
+    return _rejected(n, share, alpha / 2) + _rejected(n, 1 - share, alpha / 2)
+
+
 def _rejected(m: int, gained: float, alpha: float) -> float:
     """The chance that m pairs reject the null of equal halves, in favour of more gains."""
     return float(stats.binom.sf(_critical(m, alpha) - 1, m, gained))
@@ -94,18 +102,23 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
     stimuli = protocol.stimuli_of(hypothesis.part)
     part = protocol.written_parts[hypothesis.part]
     items = {item for question in part.ask for item in question.items}
+    judged = protocol.judged_in(hypothesis.part)
     if hypothesis.compare is None:
         tests = sum(stimulus.name in items for stimulus in stimuli)
+    elif part.pairs is not None:
+        tests = sum(pair.of(hypothesis.compare) is not None for pair in protocol.pairs_of(hypothesis.part))
     else:
-        tests = sum((stimulus.level or stimulus.name) == hypothesis.compare[0] for stimulus in stimuli)
+        tests = sum(stimulus.condition == hypothesis.compare[0] for stimulus in stimuli)
     corrected = hypothesis.correction in {"holm", "bonferroni"}
     alpha = protocol.analysis.alpha / (tests if corrected else 1)
     two_sided = hypothesis.alternative == "two-sided"
-    effect: Effect = "d" if hypothesis.outcome is None else "share"
+    effect: Effect = "d" if hypothesis.outcome is None and part.pairs is None else "share"
 
-    split = len(stimuli) // part.order.shown(stimuli)  # each participant is in one of so many groups
+    split = len(judged) // part.order.shown(judged)  # each participant is in one of so many groups
 
     def at(participants: int, size: float) -> float:
+        if part.pairs is not None:
+            return preference_power(participants // split, size, alpha, two_sided=two_sided)
         if effect == "share":
             return mcnemar_power(participants, size, 1 - size, alpha, two_sided=two_sided)
         groups = 2 if hypothesis.test == "independent t" else 1

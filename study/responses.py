@@ -32,7 +32,7 @@ class View(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    role: Literal["clip", "reference"]  # which stimulus it was stands in the plan; the page does not know
+    role: Literal["clip", "reference", "left", "right"]  # of which stimulus, stands in the plan
     plays: int = Field(ge=0, le=10_000)  # plays that reached the end
     starts: int = Field(0, ge=0, le=10_000)  # plays begun
     played_s: Seconds  # truly played in the first full play: sum of forward steps, jumps not counted

@@ -109,5 +109,5 @@ def read_plan(text: str) -> Plan:
 
 
 def _tuples(trial: dict[str, Any]) -> dict[str, Any]:
-    nested = ("items", "options")
-    return trial | {name: tuple(tuple(row) for row in trial[name]) for name in nested}
+    rows = {name: tuple(tuple(row) for row in trial[name]) for name in ("items", "options")}
+    return trial | rows | {"pair": tuple(pair) if (pair := trial.get("pair")) else None}

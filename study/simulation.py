@@ -23,11 +23,10 @@ import httpx
 
 from study.chance import Stream
 from study.export import export_responses
-from study.protocol import Protocol, Stimulus
+from study.protocol import Pair, Protocol, Stimulus
 from study.protocol.parts import series_of
 from study.questions import Question
 from study.questions.scale import Scale
-from study.questions.slider import Slider
 from study.storage import open_store
 from study.web.app import create_app
 from study.web.credentials import new_credentials, new_password
@@ -117,7 +116,7 @@ def _answer(site: Site, page: dict[str, Any], manner: Manner, rng: random.Random
     session = site.store.session(page["participant"])
     assert session is not None, "a page of the session was shown"
     step = next(step for step in steps_of(site, session) if step.key == page["step"])
-    stimulus = site.protocol.stimuli[step.trial.stimulus] if step.trial else None
+    stimulus = site.protocol.judged[step.trial.stimulus] if step.trial else None
     answers: dict[str, str] = {}
     for question in questions_of(site, step):
         answers |= choose(site.protocol, stimulus, question, manner, rng)
@@ -135,7 +134,11 @@ def _answer(site: Site, page: dict[str, Any], manner: Manner, rng: random.Random
 
 
 def choose(
-    protocol: Protocol, stimulus: Stimulus | None, question: Question, manner: Manner, rng: random.Random
+    protocol: Protocol,
+    stimulus: Stimulus | Pair | None,
+    question: Question,
+    manner: Manner,
+    rng: random.Random,
 ) -> dict[str, str]:
     """Answer a question about a stimulus (None: about oneself) in that manner."""
     if manner.same and question.values:
@@ -149,7 +152,7 @@ def choose(
 
 def _leaning(
     protocol: Protocol,
-    stimulus: Stimulus,
+    stimulus: Stimulus | Pair,
     question: Question,
     *,
     answers: dict[str, str],
@@ -157,7 +160,7 @@ def _leaning(
     rng: random.Random,
 ) -> dict[str, str]:
     """Ratings moved by as many standard deviations as the effect between two conditions that are compared."""
-    if not isinstance(question, Scale | Slider):
+    if not isinstance(question, Scale):
         return answers
     options = tuple(question.values)
     series = series_of((question,))
@@ -176,19 +179,23 @@ def _leaning(
     return answers
 
 
-def ease_of(protocol: Protocol, stimulus: Stimulus) -> float:
+def ease_of(protocol: Protocol, stimulus: Stimulus | Pair) -> float:
     """How plainly a stimulus shows what is meant; the same for all who see it, and for both of its levels."""
     hardest, easiest = EASE
     what = stimulus.principle or stimulus.name or stimulus.gesture
     return hardest + (easiest - hardest) * Stream("ease", protocol.seed, what).below(1000) / 999
 
 
-def target_of(protocol: Protocol, stimulus: Stimulus, question: Question) -> str | None:
-    """What a stimulus is meant to evoke: the item of its name, or the answer expected of its level."""
+def target_of(protocol: Protocol, stimulus: Stimulus | Pair, question: Question) -> str | None:
+    """What a stimulus is meant to evoke: the item of its name, or what is expected of its level or pair."""
     if stimulus.name in question.items:
         return stimulus.name
     for hypothesis in protocol.analysis.hypotheses.values():
-        if hypothesis.part != stimulus.part or hypothesis.compare is None or hypothesis.outcome is None:
+        if hypothesis.part != stimulus.part or hypothesis.compare is None:
+            continue
+        if isinstance(stimulus, Pair) and (compared := stimulus.of(hypothesis.compare)):
+            return compared[hypothesis.alternative == "less"].id
+        if hypothesis.outcome is None:
             continue
         answers = tuple(question.values or ())
         if hypothesis.outcome in answers and stimulus.level in hypothesis.compare:

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from study.protocol.errors import Problem, ProtocolError
-from study.protocol.parts import NEUTRAL, PRACTICE, Order, Part, Practice, Stimulus
+from study.protocol.loading import load_protocol
+from study.protocol.pairs import Pair
+from study.protocol.parts import BESIDE, NEUTRAL, PRACTICE, Order, Part, Practice
 from study.protocol.plan import Analysis, Exclusions, Hypothesis, Participants
-from study.protocol.protocol import Protocol, load_protocol
+from study.protocol.protocol import Protocol
+from study.protocol.stimulus import Stimulus
 from study.protocol.texts import Texts
 from study.text import Text
 
 __all__ = [
+    "BESIDE",
     "NEUTRAL",
     "PRACTICE",
     "Analysis",
     "Exclusions",
     "Hypothesis",
     "Order",
+    "Pair",
     "Part",
     "Participants",
     "Practice",

@@ -10,7 +10,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from stimuli.principles import Modulation
+from study.protocol.pairs import Pair, Pairs
+from study.protocol.stimulus import Alike, Stimulus
 from study.questions import Asked, Question
 from study.questions.scale import Scale
 from study.text import Text
@@ -19,11 +20,10 @@ from study.written import Written, wrong, wrong_at
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
 Method = Literal["williams", "latin square", "shuffled", "fixed", "between participants"]
 
-Alike = Literal["gesture", "modulation", "principle", "level"]
-
 BETWEEN: Literal["between participants"] = "between participants"  # each participant sees but one
 NEUTRAL = "neutral"  # the modulation that changes nothing, always there
 PRACTICE = "practice"  # id of the stimulus one practises on
+BESIDE = "practice_beside"  # id of the one beside it, where pairs are compared
 
 
 def _one_or_more(value: Any) -> Any:
@@ -66,28 +66,6 @@ def _file(value: Any) -> Any:
 
 
 WrittenGesture = Annotated[Gesture, BeforeValidator(_file, json_schema_input_type=Path | Gesture)]
-
-
-@dataclass(frozen=True)
-class Stimulus:
-    """One motion to be seen: a gesture under a modulation."""
-
-    id: str
-    gesture: str
-    modulation: Modulation
-    part: str
-    name: str | None = None  # of the modulation, where it has one
-    principle: str | None = None
-    level: str | None = None
-
-    def feature(self, alike: Alike) -> str | None:
-        """What this stimulus has in common with others."""
-        return {
-            "gesture": self.gesture,
-            "modulation": self.name,
-            "principle": self.principle,
-            "level": self.level,
-        }[alike]
 
 
 class Order(Written):
@@ -133,7 +111,7 @@ class Order(Written):
         }
         return next(((alike, method) for alike, method in named.items() if method), None)
 
-    def shown(self, stimuli: Sequence[Stimulus]) -> int:
+    def shown(self, stimuli: Sequence[Stimulus | Pair]) -> int:
         """How many of the stimuli one participant sees."""
         groups = Counter(stimulus.feature(self.blocks[0]) if self.blocks else None for stimulus in stimuli)
         each = [1 if self.stimuli == BETWEEN else size for size in groups.values()]
@@ -170,6 +148,7 @@ class WrittenPart(Written):
     intro: Text | None = None
     stimuli: Selection
     reference: Name | None = None  # the level shown before each judged one
+    pairs: Pairs | None = None  # shown side by side
     order: Annotated[Order, BeforeValidator(_order, json_schema_input_type=Method | Order)] = Order(
         stimuli="williams"
     )
@@ -188,6 +167,7 @@ class Practice(Written):
     """One page before the first part: a stimulus and a part's questions, left out of all results."""
 
     stimulus: PracticeStimulus
+    beside: PracticeStimulus | None = None  # where the part compares pairs: the other one
     ask: Name  # the part whose questions are asked
 
 
@@ -206,16 +186,24 @@ class Part:
     id: str
     title: Text
     intro: Text
-    stimuli: tuple[str, ...]  # ids of those judged, as written; references are not among them
+    stimuli: tuple[str, ...]  # ids of what is judged, stimuli or pairs, as written; without references
     questions: tuple[Question, ...]
     order: Order
     references: Mapping[str, str] = field(default_factory=dict)
+    pairs: Mapping[str, tuple[str, str]] = field(
+        default_factory=dict
+    )  # id of a pair → ids of its two stimuli
     only_if: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     shown: int | None = None  # how many of the stimuli one participant sees, where those are not all
 
     def reference_of(self, stimulus: str) -> str | None:
         """The clip shown before this one."""
         return self.references.get(stimulus)
+
+    @property
+    def groups(self) -> int:
+        """Among how many groups of participants the stimuli are shared out."""
+        return len(self.stimuli) // (self.shown or len(self.stimuli))
 
     def due(self, given: Mapping[str, Collection[str]]) -> bool:
         """Whether this part is shown to somebody who gave these answers earlier, by item."""

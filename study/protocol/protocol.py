@@ -11,30 +11,31 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, field_validator, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, field_validator, model_validator
 
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
 from study.protocol.amendments import Amendment
-from study.protocol.errors import ProtocolError
 from study.protocol.modulations import read_levels, read_modulations
+from study.protocol.pairs import Pair, paired
 from study.protocol.parts import (
+    BESIDE,
     NEUTRAL,
     PRACTICE,
     Name,
     Part,
     Practice,
-    Stimulus,
+    PracticeStimulus,
     WrittenGesture,
     WrittenPart,
 )
 from study.protocol.plan import Analysis, Participants
-from study.protocol.references import contradictions
-from study.protocol.source import Source, read_source
+from study.protocol.source import Source
+from study.protocol.stimulus import Stimulus
 from study.protocol.texts import Texts, WrittenTexts, completed, files_named_in, shipped, shipped_demographics
 from study.questions import Asked
 from study.text import Text
-from study.written import NAME, Location, Seconds, Written, wrong
+from study.written import Location, Seconds, Written, wrong
 
 Language = Annotated[str, Field(pattern=r"^[a-z]{2,3}(-[A-Z]{2})?$")]
 
@@ -141,13 +142,36 @@ class Protocol(Written):
         found: dict[str, Stimulus] = {}
         for part_id in self.written_parts:
             found |= {stimulus.id: stimulus for stimulus in self.stimuli_of(part_id)}
-        if self.practice:
-            chosen = self.practice.stimulus
-            modulation = self.modulations[chosen.modulation] if chosen.modulation else Modulation()
-            found[PRACTICE] = Stimulus(
-                PRACTICE, chosen.gesture, modulation, self.practice.ask, chosen.modulation
-            )
+        for name, chosen in self._practised().items():
+            modulation = self.modulations.get(chosen.modulation or NEUTRAL, Modulation())
+            part = self.practice.ask if self.practice else ""
+            found[name] = Stimulus(name, chosen.gesture, modulation, part, chosen.modulation)
         return found
+
+    def _practised(self) -> dict[str, PracticeStimulus]:
+        """What one practises on, by id."""
+        if self.practice is None:
+            return {}
+        beside = {BESIDE: self.practice.beside} if self.practice.beside else {}
+        return {PRACTICE: self.practice.stimulus} | beside
+
+    @cached_property
+    def judged(self) -> Mapping[str, Stimulus | Pair]:
+        """Every stimulus by id, and every pair."""
+        pairs = {pair.id: pair for part_id in self.written_parts for pair in self.pairs_of(part_id)}
+        return {**self.stimuli, **pairs}
+
+    def pairs_of(self, part_id: str) -> list[Pair]:
+        """What a part shows side by side."""
+        wanted = self.written_parts[part_id].pairs
+        return [] if wanted is None else paired(self.stimuli_of(part_id), wanted)
+
+    def judged_in(self, part_id: str) -> list[Stimulus] | list[Pair]:
+        """What is judged in a part, in the order written: pairs, or stimuli that are no reference."""
+        written = self.written_parts[part_id]
+        if written.pairs is not None:
+            return self.pairs_of(part_id)
+        return [s for s in self.stimuli_of(part_id) if s.level is None or s.level != written.reference]
 
     def stimuli_of(self, part_id: str) -> list[Stimulus]:
         """The stimuli of a part, references too, in the order written."""
@@ -180,19 +204,21 @@ class Protocol(Written):
         written = self.written_parts[part_id]
         stimuli = self.stimuli_of(part_id)
         ids = {(s.gesture, s.principle, s.level): s.id for s in stimuli}
-        judged = [s for s in stimuli if written.reference is None or s.level != written.reference]
+        judged, pairs = self.judged_in(part_id), self.pairs_of(part_id)
         references = {
             s.id: ids[s.gesture, s.principle, written.reference] for s in judged if written.reference
         }
-        intro = self.texts.introducing(comparison=bool(references))
+        compared = [stimulus.id for stimulus in stimuli] if pairs else []
+        intro = self.texts.introducing(comparison=bool(references), pairs=bool(pairs))
         return Part(
             id=part_id,
             title=written.title,
             intro=self._completed(written.intro) if written.intro else intro,
             stimuli=tuple(s.id for s in judged),
-            questions=written.ask,
+            questions=tuple(question.among(compared) for question in written.ask),
             order=written.order,
             references=references,
+            pairs={pair.id: pair.ids for pair in pairs},
             only_if=written.only_if,
             shown=shown if (shown := written.order.shown(judged)) < len(judged) else None,
         )
@@ -210,7 +236,7 @@ class Protocol(Written):
     @cached_property
     def length(self) -> tuple[int, int]:
         """How many videos a participant sees, and how many minutes it takes, estimated or as told."""
-        videos, seconds = (1, 90.0) if self.practice else (0, 60.0)
+        videos, seconds = (len(self._practised()), 90.0) if self.practice else (0, 60.0)
         for part in self.written_parts:
             judged, items, clips = self._pages(part)
             videos += judged * clips
@@ -220,9 +246,9 @@ class Protocol(Written):
     def _pages(self, part_id: str) -> tuple[int, int, int]:
         """Of one part: pages that a participant sees, items to answer on each, clips on each."""
         part = self.written_parts[part_id]
-        judged = [s for s in self.stimuli_of(part_id) if s.level is None or s.level != part.reference]
         items = sum(len(question.items) for question in part.ask)
-        return part.order.shown(judged), items, 2 if part.reference else 1
+        two = part.reference is not None or part.pairs is not None
+        return part.order.shown(self.judged_in(part_id)), items, 2 if two else 1
 
     def _completed(self, text: Text) -> Text:
         videos, minutes = self.length
@@ -255,23 +281,3 @@ class Protocol(Written):
         }
         content = json.dumps([self.source.value, files], ensure_ascii=False, separators=(",", ":"))
         return hashlib.sha256(content.encode()).hexdigest()
-
-
-def load_protocol(path: Path) -> Protocol:
-    """Read a protocol from its file, or from the `protocol.yaml` in a folder.
-
-    Raises ProtocolError with everything that is wrong, each at its line.
-    """
-    source = read_source(path / "protocol.yaml" if path.is_dir() else path)
-    try:
-        protocol = Protocol.model_validate(source.value)
-    except ValidationError as error:
-        raise ProtocolError(
-            source.problem(detail["loc"], detail["msg"], name=detail["type"] == NAME)
-            for detail in error.errors(include_url=False)
-        ) from None
-    protocol._source = source
-    problems = [source.problem(location, message) for location, message in contradictions(protocol)]
-    if problems:
-        raise ProtocolError(problems)
-    return protocol

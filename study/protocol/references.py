@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
-from study.protocol.parts import NEUTRAL, PRACTICE, series_of
+from study.protocol.contradiction import Contradiction, unknown
+from study.protocol.hypotheses import hypotheses
+from study.protocol.parts import BESIDE, NEUTRAL, PRACTICE
+from study.protocol.protocol import Protocol
 from study.protocol.texts import files_named_in
+from study.questions import Question
+from study.questions.prefer import Prefer
 from study.text import Text
-from study.written import Location, nearest
-
-if TYPE_CHECKING:
-    from study.protocol.protocol import Protocol
-
-Contradiction = tuple[Location, str]  # where, and what is wrong
+from study.written import Location
 
 
 def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
@@ -25,12 +24,8 @@ def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
     yield from _conditions(protocol)
     if not lost:  # what follows needs the stimuli
         yield from _ids(protocol)
-        yield from _hypotheses(protocol)
-
-
-def _unknown(location: Location, name: str, known: Collection[str], what: str) -> Iterator[Contradiction]:
-    if name not in known:
-        yield location, f"is no {what}; {nearest(name, known)}"
+        yield from _pairs(protocol)
+        yield from hypotheses(protocol)
 
 
 def _stimuli(protocol: Protocol) -> Iterator[Contradiction]:
@@ -38,17 +33,19 @@ def _stimuli(protocol: Protocol) -> Iterator[Contradiction]:
         here: Location = ("parts", part_id)
         chosen = part.stimuli
         for at, gesture in enumerate(chosen.gestures):
-            yield from _unknown((*here, "stimuli", "gesture", at), gesture, protocol.gestures, "gesture")
+            yield from unknown((*here, "stimuli", "gesture", at), gesture, protocol.gestures, "gesture")
         for at, name in enumerate(chosen.modulations or ()):
             if not protocol.members(name):
                 known = [*protocol.modulations, NEUTRAL]
-                yield from _unknown((*here, "stimuli", "modulations", at), name, known, "modulation")
+                yield from unknown((*here, "stimuli", "modulations", at), name, known, "modulation")
         for at, kind in enumerate(chosen.levels or ()):
             place: Location = (*here, "stimuli", "levels", at)
-            yield from _unknown(place, kind, protocol.levels, "principle with levels")
+            yield from unknown(place, kind, protocol.levels, "principle with levels")
             if part.reference and kind in protocol.levels and part.reference not in protocol.levels[kind]:
                 known_levels = protocol.levels[kind]
-                yield from _unknown((*here, "reference"), part.reference, known_levels, f"level of {kind}")
+                yield from unknown((*here, "reference"), part.reference, known_levels, f"level of {kind}")
+        if part.reference and part.pairs is not None:
+            yield (*here, "reference"), "does not go with pairs, which are shown side by side already"
         if part.reference and not chosen.levels:
             yield (*here, "reference"), "is for stimuli chosen by levels"
         if part.order.principles and not chosen.levels:
@@ -56,17 +53,59 @@ def _stimuli(protocol: Protocol) -> Iterator[Contradiction]:
 
 
 def _practice(protocol: Protocol) -> Iterator[Contradiction]:
-    if practice := protocol.practice:
-        here: Location = ("practice", "stimulus")
-        yield from _unknown((*here, "gesture"), practice.stimulus.gesture, protocol.gestures, "gesture")
-        if practice.stimulus.modulation:
-            name = practice.stimulus.modulation
-            yield from _unknown((*here, "modulation"), name, protocol.modulations, "modulation")
-        yield from _unknown(("practice", "ask"), practice.ask, protocol.written_parts, "part")
+    practice = protocol.practice
+    if practice is None:
+        return
+    for field, chosen in (("stimulus", practice.stimulus), ("beside", practice.beside)):
+        if chosen is None:
+            continue
+        here: Location = ("practice", field)
+        yield from unknown((*here, "gesture"), chosen.gesture, protocol.gestures, "gesture")
+        if chosen.modulation not in {None, NEUTRAL}:
+            known = [*protocol.modulations, NEUTRAL]
+            yield from unknown((*here, "modulation"), chosen.modulation or "", known, "modulation")
+    yield from unknown(("practice", "ask"), practice.ask, protocol.written_parts, "part")
+    asked = protocol.written_parts.get(practice.ask)
+    if asked and asked.pairs is None and practice.beside:
+        yield ("practice", "beside"), f"is for a part with pairs; {practice.ask} has none"
+    if asked and asked.pairs is not None and not practice.beside:
+        example = f"beside: {{gesture: {practice.stimulus.gesture}}}"
+        yield ("practice", "ask"), f"compares pairs; add what stands beside the stimulus, such as {example}"
+
+
+def _pairs(protocol: Protocol) -> Iterator[Contradiction]:
+    """Pairs that cannot be formed, orders they cannot have, and questions that are for pairs alone."""
+    for place, questions in _pages(protocol):
+        part = protocol.written_parts.get(str(place[1])) if len(place) > 1 else None
+        for at, question in enumerate(questions):
+            if isinstance(question, Prefer) and (part is None or part.pairs is None):
+                yield (*place, at, question.kind), "is for a part with pairs, such as pairs: all"
+    for part_id, part in protocol.written_parts.items():
+        here: Location = ("parts", part_id, "pairs")
+        if part.pairs is None:
+            continue
+        stimuli, pairs = protocol.stimuli_of(part_id), protocol.pairs_of(part_id)
+        conditions = dict.fromkeys(stimulus.condition or "" for stimulus in stimuli)
+        for at, two in enumerate(part.pairs):
+            for side, condition in enumerate(two):
+                yield from unknown(
+                    (*here, at, side), condition, conditions, f"level or modulation in {part_id}"
+                )
+            if two[0] == two[1]:
+                yield (*here, at), f"compares {two[0]} with itself"
+            if {frozenset(two)} & set(map(frozenset, part.pairs[:at])):
+                yield (*here, at), f"compares {two[0]} and {two[1]} a second time"
+        in_pairs = {id_ for pair in pairs for id_ in pair.ids}
+        if left_over := [stimulus.id for stimulus in stimuli if stimulus.id not in in_pairs]:
+            yield here, f"leaves {', '.join(left_over)} without another to be compared with"
+        if part.order.modulations or {"modulation", "level"} & set(part.order.max_run):
+            yield ("parts", part_id, "order"), "goes by gestures or principles where pairs are compared"
+        if part.order.levels:
+            yield ("parts", part_id, "order", "levels"), "is for levels judged one by one; order `stimuli`"
 
 
 def _ids(protocol: Protocol) -> Iterator[Contradiction]:
-    taken = {PRACTICE: "the practice"}
+    taken = {PRACTICE: "the practice", BESIDE: "the practice"}
     for part_id in protocol.written_parts:
         for stimulus in protocol.stimuli_of(part_id):
             if stimulus.id in taken:
@@ -78,9 +117,14 @@ def _ids(protocol: Protocol) -> Iterator[Contradiction]:
             taken[stimulus.id] = f"part {part_id}"
 
 
+def _pages(protocol: Protocol) -> list[tuple[Location, tuple[Question, ...]]]:
+    """The questions of every page, and where they stand."""
+    asked = [(("parts", part_id, "ask"), part.ask) for part_id, part in protocol.written_parts.items()]
+    return [*asked, (("demographics",), protocol.demographics)]
+
+
 def _questions(protocol: Protocol) -> Iterator[Contradiction]:
-    pages = [(("parts", part_id, "ask"), part.ask) for part_id, part in protocol.written_parts.items()]
-    for here, questions in [*pages, (("demographics",), protocol.demographics)]:
+    for here, questions in _pages(protocol):
         seen: set[str] = set()
         for at, question in enumerate(questions):
             for item in question.items:
@@ -95,9 +139,9 @@ def _conditions(protocol: Protocol) -> Iterator[Contradiction]:
     for part_id, part in protocol.written_parts.items():
         for item, answers in part.only_if.items():
             here: Location = ("parts", part_id, "if", item)
-            yield from _unknown(here, item, earlier, "item asked before this part")
+            yield from unknown(here, item, earlier, "item asked before this part")
             for answer in answers if item in earlier else ():
-                yield from _unknown(here, answer, earlier[item] or (answer,), f"answer to {item}")
+                yield from unknown(here, answer, earlier[item] or (answer,), f"answer to {item}")
         earlier |= {item: question.values for question in part.ask for item in question.items}
 
 
@@ -119,32 +163,3 @@ def _texts(protocol: Protocol) -> Iterator[Contradiction]:
                 yield place, f"cannot be read: {error.strerror}"
             except UnicodeDecodeError:
                 yield place, "is not UTF-8; save the file with encoding UTF-8"
-
-
-def _hypotheses(protocol: Protocol) -> Iterator[Contradiction]:
-    hypotheses = protocol.analysis.hypotheses
-    for name, hypothesis in hypotheses.items():
-        here: Location = ("analysis", name)
-        yield from _unknown((*here, "part"), hypothesis.part, protocol.written_parts, "part")
-        if hypothesis.mirrors is not None:
-            others = [other for other in hypotheses if other != name]
-            yield from _unknown((*here, "mirrors"), hypothesis.mirrors, others, "other hypothesis")
-        if hypothesis.part not in protocol.written_parts:
-            continue
-        part = protocol.written_parts[hypothesis.part]
-        items = [item for question in part.ask for item in question.items]
-        values = [value for question in part.ask for value in question.values or ()]
-        stimuli = protocol.stimuli_of(hypothesis.part)
-        conditions = dict.fromkeys(condition for s in stimuli if (condition := s.level or s.name))
-        scored = [*items, *series_of(part.ask)]
-        if hypothesis.item is not None:
-            yield from _unknown((*here, "item"), hypothesis.item, scored, f"item of {hypothesis.part}")
-        if hypothesis.outcome is not None:
-            yield from _unknown(
-                (*here, "outcome"), hypothesis.outcome, values, f"answer in {hypothesis.part}"
-            )
-        for at, level in enumerate(hypothesis.compare or ()):
-            what = f"level or modulation in {hypothesis.part}"
-            yield from _unknown((*here, "compare", at), level, conditions, what)
-        if hypothesis.of == "target" and not any(stimulus.name in items for stimulus in stimuli):
-            yield (*here, "of"), f"needs items of {hypothesis.part} that bear the names of its modulations"

@@ -25,6 +25,7 @@ class WrittenTexts(Written):
     consent: Text | None = None
     instructions: Text | None = None  # of a part without an `intro`
     comparison: Text | None = None  # the same, where a reference is shown first
+    pairs: Text | None = None  # the same, where two are shown side by side
     practice: Text | None = None
     debrief: Text | None = None
 
@@ -35,11 +36,14 @@ class Texts(Written):
     consent: Text
     instructions: Text
     comparison: Text
+    pairs: Text
     practice: Text
     debrief: Text
 
-    def introducing(self, *, comparison: bool) -> Text:
+    def introducing(self, *, comparison: bool, pairs: bool) -> Text:
         """What is said before a part that says nothing itself."""
+        if pairs:
+            return self.pairs
         return self.comparison if comparison else self.instructions
 
 

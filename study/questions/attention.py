@@ -8,12 +8,11 @@ from typing import Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from study.questions.question import Question
-from study.text import NamedTexts, Text
+from study.questions.choice import Choice
 from study.written import nearest, wrong_at
 
 
-class Attention(Question):
+class Attention(Choice):
     """“Please choose ‘strongly’ here.”, on every page of the part or on some (`at: [4, 9]`, counted from 1).
 
     Wrong answers are kept; `participants: {exclude: {failed_attention: 2}}` counts them.
@@ -21,7 +20,6 @@ class Attention(Question):
 
     kind: ClassVar[str] = "attention"
     item: str = Field("attention", pattern=r"^[a-z][a-z0-9_]*$")
-    options: NamedTexts = Field(min_length=2)
     expected: str
     at: tuple[int, ...] | None = Field(None, min_length=1)  # trials of the part; all, unless told
 
@@ -39,16 +37,6 @@ class Attention(Question):
             message = f"is no option; {nearest(self.expected, self.options)}"
             raise wrong_at(("expected",), message, self.expected)
         return self
-
-    @property
-    def items(self) -> Mapping[str, Text]:
-        """The one check."""
-        return {self.item: self.text}
-
-    @property
-    def values(self) -> Mapping[str, Text]:
-        """The options."""
-        return self.options
 
     def asked_at(self, trial: int) -> bool:
         """Whether it stands on the page of this trial, counted from 1; 0 is practice."""

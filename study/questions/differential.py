@@ -17,7 +17,13 @@ class Differential(Scale):
 
     kind: ClassVar[str] = "differential"
     items_field: ClassVar[str] = "pairs"
+    points: int = Field(5, ge=2, le=11)
     pairs: dict[str, Ends] = Field(min_length=1)
+
+    @property
+    def scale(self) -> tuple[int, int]:
+        """Lowest and highest point."""
+        return 1, self.points
 
     @cached_property
     def items(self) -> Mapping[str, Text]:

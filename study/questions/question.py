@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import random
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from typing import Any, ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, Self
 
 from stimuli.errors import InputError
 from study.text import Text
@@ -36,6 +36,10 @@ class Question(Written, ABC):
     def asked_at(self, trial: int) -> bool:  # noqa: ARG002
         """Whether it stands on the page of this trial of its part, counted from 1; 0 is practice."""
         return True
+
+    def among(self, stimuli: Sequence[str]) -> Self:  # noqa: ARG002
+        """The question as it is asked about stimuli that are compared; the same for all kinds but one."""
+        return self
 
     def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
         """Answer as a participant might.

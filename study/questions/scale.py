@@ -1,4 +1,4 @@
-"""What rating and differentials share: items on one scale of points, and series scored by their means.
+"""What rating, differentials and sliders share: items on one scale, and series scored by their means.
 
 `set: godspeed` or `set: rosas` brings the items of a published questionnaire, `set: godspeed animacy` one of
 its series (study/defaults/sets/).
@@ -7,6 +7,7 @@ its series (study/defaults/sets/).
 from __future__ import annotations
 
 import random
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cache, cached_property
 from pathlib import Path
@@ -16,19 +17,18 @@ import yaml
 from pydantic import Field, model_validator
 
 from study.questions.question import Question
-from study.text import Text
+from study.text import Ends, NamedTexts, Text
 from study.written import nearest, wrong_at
 
 _SETS = Path(__file__).parent.parent / "defaults" / "sets"
 
 
 class Scale(Question):
-    """Items that are all answered by one of the same points, 1 being the lowest."""
+    """Items that are all answered by a whole number between the same two ends."""
 
     items_field: ClassVar[str]  # where a protocol writes the items, and a set brings them
 
     set: str | None = None
-    points: int = Field(5, ge=2, le=11)
     series: dict[str, str] = Field(default_factory=dict)  # item → the scale it is scored in
     item_order: Literal["fixed", "shuffled"] = "fixed"  # shuffled: once per participant, then the same
 
@@ -45,14 +45,21 @@ class Scale(Question):
         return {key: body[key] for key in body if key != "items"} | {cls.items_field: body["items"]} | value
 
     @property
+    @abstractmethod
     def scale(self) -> tuple[int, int]:
-        """Lowest and highest point."""
-        return 1, self.points
+        """Lowest and highest number."""
+
+    @property
+    def labels(self) -> Mapping[int, Text]:
+        """What numbers are called, where not by themselves."""
+        return {}
 
     @cached_property
     def values(self) -> Mapping[str, Text]:
-        """The points, from "1"."""
-        return {str(point): Text(str(point)) for point in range(1, self.points + 1)}
+        """The numbers, from the lowest."""
+        lowest, highest = self.scale
+        labels = self.labels
+        return {str(n): labels.get(n, Text(str(n))) for n in range(lowest, highest + 1)}
 
     @property
     def shuffles_items(self) -> bool:
@@ -61,12 +68,13 @@ class Scale(Question):
 
     def simulate(self, rng: random.Random, target: str | None = None, effect: float = 1.0) -> dict[str, str]:
         """Rate the target high and the rest low, as a rounded normal judgement."""
-        middle, width = (1 + self.points) / 2, (self.points - 1) / 4
+        lowest, highest = self.scale
+        middle, width = (lowest + highest) / 2, (highest - lowest) / 4
         answers = {}
         for item in self.items:
             lean = 0.0 if target is None else effect * (0.9 if item == target else -0.9)
             judgement = rng.gauss(middle + lean * width, width)
-            answers[item] = str(min(max(round(judgement), 1), self.points))
+            answers[item] = str(min(max(round(judgement), lowest), highest))
         return answers
 
     def codebook(self, language: str = "en") -> list[dict[str, Any]]:
@@ -80,6 +88,24 @@ class Scale(Question):
             if answers.get(item):
                 given.setdefault(series, []).append(int(answers[item]))
         return {series: sum(points) / len(points) for series, points in given.items()}
+
+
+class Rating(Scale):
+    """Items between two labelled ends, as points or as a line."""
+
+    items_field: ClassVar[str] = "items"
+    written_items: NamedTexts = Field(alias="items", min_length=1)
+    ends: Ends
+
+    @property
+    def items(self) -> Mapping[str, Text]:
+        """What is rated."""
+        return self.written_items
+
+    @property
+    def labels(self) -> Mapping[int, Text]:
+        """Only the ends bear a label."""
+        return dict(zip(self.scale, self.ends, strict=True))
 
 
 @cache

@@ -12,7 +12,7 @@ from fastapi.responses import JSONResponse, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 
-from study.orders import draw_plan
+from study.orders import Shown, draw_plan
 from study.participants import Participant, new_completion_code
 from study.questions import AnswerError, Question
 from study.responses import Submission, playback_fault
@@ -50,15 +50,13 @@ def questions_of(site: Site, step: Step) -> tuple[Question, ...]:
     return tuple(question for question, _, _ in _asked(site, step))
 
 
-def _asked(site: Site, step: Step) -> list[tuple[Question, tuple[str, ...], tuple[str, ...]]]:
-    """The questions of a page, each with its items and its options in the order shown; () as written."""
+def _asked(site: Site, step: Step) -> list[Shown]:
+    """The questions of a page."""
     if step.kind == "demographics":
         return [(question, (), ()) for question in site.protocol.demographics]
     if step.trial is None:
         return []
-    trial, questions = step.trial, site.protocol.parts[step.trial.part].questions
-    shown = zip(questions, trial.items, trial.options, strict=True)
-    return [asked for asked in shown if asked[0].asked_at(trial.number)]
+    return list(step.trial.asked(site.protocol.parts[step.trial.part]))
 
 
 # The session

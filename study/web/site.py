@@ -74,6 +74,8 @@ class Site:
 
     def clips_on(self, trial: Trial) -> dict[str, Clip]:
         """The clips of a trial by role, in the order shown."""
+        if trial.pair:
+            return {side: self.clips[id_] for side, id_ in zip(("left", "right"), trial.pair, strict=True)}
         reference = {} if trial.reference is None else {"reference": self.clips[trial.reference]}
         return reference | {"clip": self.clips[trial.stimulus]}
 

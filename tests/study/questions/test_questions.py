@@ -30,12 +30,13 @@ EXAMPLES: dict[str, dict[str, object]] = {
     "differential": {"set": "godspeed", "points": 7},
     "number": {"item": "age", "text": "Age?", "least": 18, "most": 120, "whole": True},
     "select": {"item": "gender", "text": "Gender?", "options": ["female", "male", "other"]},
+    "prefer": {"text": "Which looks happier?"},
     "text": {"item": "remarks", "text": "Remarks?", "longest": 500},
 }
 
 
 def made(kind: str, **changes) -> Question:
-    return ASKED.validate_python({kind: EXAMPLES[kind] | changes})
+    return ASKED.validate_python({kind: EXAMPLES[kind] | changes}).among(["calm", "lively"])
 
 
 def test_every_kind_has_an_example_here():
@@ -101,7 +102,7 @@ def test_option_orders_all_hold_the_same_options(kind):
     [("rate", "0"), ("rate", "6"), ("rate", "3.0"), ("rate", " 3"), ("choose", "Lower"), ("number", "17"),
      ("number", "121"), ("number", "18.5"), ("number", "1e2"), ("number", "٣٣"), ("select", "nobody"),
      ("text", "x" * 501), ("slider", "101"), ("slider", "-1"), ("slider", "50.5"), ("rank", "0"),
-     ("rank", "4"), ("attention", "blue")],
+     ("rank", "4"), ("attention", "blue"), ("prefer", "left"), ("prefer", "neutral")],
 )  # fmt: skip
 def test_impossible_answers_are_refused(kind, answer):
     question = made(kind)
@@ -174,6 +175,22 @@ def test_attention_is_passed_by_the_expected_answer_alone():
     assert all(question.simulate(rng)["attention"] == "green" for _ in range(50))
     with pytest.raises(ValidationError, match="is no option; did you mean green"):
         made("attention", expected="gren")
+
+
+def test_a_preference_is_for_one_of_the_two_that_are_shown():
+    question = made("prefer")
+    assert list(question.values) == ["calm", "lively"]
+    assert list(question.among(["b", "a"]).values) == ["b", "a"], "as they stand, left and right"
+    assert list(question.values) == ["calm", "lively"], "the question itself stays as it is"
+    rng = random.Random(1)
+    assert sum(question.simulate(rng, "lively")["preferred"] == "lively" for _ in range(400)) > 300
+    blind = sum(question.simulate(rng, "lively", 0.0)["preferred"] == "lively" for _ in range(400))
+    assert abs(blind - 200) < 60
+
+
+def test_sliders_can_be_scored_in_series():
+    question = made("slider", series={"joy": "affect", "fear": "affect"})
+    assert question.scores({"joy": "80", "fear": "21"}) == {"affect": 50.5}
 
 
 def test_a_series_can_be_asked_alone():
