@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis.dataset import FloatArray
-from analysis.plan import Outcome, Targets
+from analysis.plan import Outcome, Preferences, Targets
 from analysis.statistics.order_effects import CarryOver, Position, carry_over, position_effect
 
 
@@ -46,6 +46,11 @@ def scores_of(outcome: Outcome) -> FloatArray:
         for stimulus, one in outcome.results.items():
             s = answers.stimuli.index(stimulus)
             scores[:, s] = answers.ratings[:, s, answers.items.index(one.item)]
+        return scores
+    if isinstance(outcome, Preferences):
+        for preferred in outcome.results.values():
+            s, i = answers.stimuli.index(preferred.compared.pair), answers.items.index(outcome.item)
+            scores[:, s] = answers.chose(preferred.compared.first)[:, s, i]
         return scores
     comparison = outcome.comparison
     values = answers.on(comparison.item, comparison.outcome)

@@ -10,7 +10,7 @@ import numpy as np
 
 from analysis.drawing import COLOURS, FAINT, INK, Drawing
 from analysis.exclusions import Flow
-from analysis.plan import Findings, Targets
+from analysis.plan import Findings, Levels, Targets
 from analysis.statistics.t_test import TTest
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def draw_forest(findings: Findings, labels: Mapping[str, str]) -> Drawing | None
     for name, outcome in findings.outcomes.items():
         if isinstance(outcome, Targets):
             tests = {key: one.against.t_test for key, one in outcome.results.items()}
-        elif outcome.mirrors is None:
+        elif isinstance(outcome, Levels) and outcome.mirrors is None:
             tests = {key: one.deciding_t for key, one in outcome.results.items()}
         else:
             continue

@@ -10,9 +10,11 @@ from analysis.chance import DEFINITIONS, Definition, fixed
 from analysis.dataset import Answers, Responses
 from analysis.exclusions import Flow, apply_exclusions
 from analysis.levels import Compared, Comparison, comparisons
+from analysis.preference import Preferred, Two, preferences
 from analysis.statistics.samples import Moments, moments
 from analysis.target import Judging, Recognised, recognition
 from stimuli.errors import InputError
+from study.questions.prefer import Prefer
 
 if TYPE_CHECKING:
     from study.protocol import Hypothesis, Protocol
@@ -58,7 +60,21 @@ class Levels:
     results: Mapping[str, Compared]  # by principle
 
 
-Outcome = Targets | Levels
+@dataclass(frozen=True)
+class Preferences:
+    """A hypothesis that of two clips side by side one is preferred."""
+
+    hypothesis: str
+    name: str
+    part: str
+    answers: Answers
+    judging: Judging
+    item: str
+    compare: tuple[str, str]  # the levels or modulations; the first is what counts
+    results: Mapping[str, Preferred]  # by gesture, principle or item
+
+
+Outcome = Targets | Levels | Preferences
 
 
 @dataclass(frozen=True)
@@ -97,7 +113,7 @@ def result_name(hypothesis: str, protocol: Protocol) -> str:
 
 def decide(name: str, hypothesis: Hypothesis, responses: Responses, protocol: Protocol) -> Outcome:
     """Test one hypothesis."""
-    answers = responses.answers(hypothesis.part, hypothesis.item)
+    answers = responses.answers(hypothesis.part, _item(hypothesis, protocol))
     judging = Judging(
         test=hypothesis.test,
         alternative=hypothesis.alternative,
@@ -106,7 +122,16 @@ def decide(name: str, hypothesis: Hypothesis, responses: Responses, protocol: Pr
     )
     if hypothesis.compare is None:
         return _targets(name, hypothesis, answers, protocol, judging)
+    if protocol.parts[hypothesis.part].pairs:
+        return _preferences(name, hypothesis, answers, protocol, judging)
     return _levels(name, hypothesis, answers, protocol, judging)
+
+
+def _item(hypothesis: Hypothesis, protocol: Protocol) -> str | None:
+    """What is asked: as named; of pairs, which is preferred."""
+    part = protocol.parts[hypothesis.part]
+    asked = [question for question in part.questions if part.pairs and isinstance(question, Prefer)]
+    return hypothesis.item or next((question.item for question in asked), None)
 
 
 def _counted(hypothesis: Hypothesis, protocol: Protocol) -> Hypothesis:
@@ -139,6 +164,30 @@ def _targets(
             stimulus: {item: moments(ratings[:, s, i]) for i, item in enumerate(answers.items)}
             for s, stimulus in enumerate(answers.stimuli)
         },
+    )
+
+
+def _preferences(
+    name: str, hypothesis: Hypothesis, answers: Answers, protocol: Protocol, judging: Judging
+) -> Preferences:
+    assert hypothesis.compare is not None
+    item = hypothesis.item or answers.items[0]
+    shown = protocol.pairs_of(hypothesis.part)
+    several = len({pair.gesture for pair in shown}) > 1
+    pairs = {}
+    for pair in shown:
+        if two := pair.of(hypothesis.compare):
+            where = (pair.gesture if several else None, pair.principle)
+            pairs[" ".join(filter(None, where)) or item] = Two(pair.id, *(one.id for one in two))
+    return Preferences(
+        hypothesis=name,
+        name=result_name(name, protocol),
+        part=answers.part,
+        answers=answers,
+        judging=judging,
+        item=item,
+        compare=hypothesis.compare,
+        results=preferences(answers, item, pairs, judging),
     )
 
 

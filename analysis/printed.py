@@ -67,7 +67,7 @@ def _outcome(
             pages.tabulate(TARGET_HEAD, _target_rows(outcome, labels), TARGET_WIDTHS)
             pages.write("What other definitions of chance say, adjusted p:")
             pages.tabulate(*_definitions(outcome, labels))
-        else:
+        elif isinstance(outcome, Levels):
             pages.tabulate(LEVEL_HEAD, _level_rows(outcome, labels), LEVEL_WIDTHS)
     for key, sentence in sentences(outcome).items():
         pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)

@@ -13,7 +13,8 @@ from analysis.drawing import Drawing, styled
 from analysis.figures import draw_compared, draw_levels, draw_targets
 from analysis.further import look_further
 from analysis.overview import draw_flow, draw_forest
-from analysis.plan import Findings, Targets, carry_out
+from analysis.plan import Findings, Preferences, Targets, carry_out
+from analysis.preferred import draw_preferences, preferred_csv, preferred_latex
 from analysis.printed import write_pdf
 from analysis.results import Provenance, Results
 from analysis.tables import (
@@ -72,6 +73,9 @@ def tables(findings: Findings) -> dict[str, str]:
             written[f"{outcome.name}.tex"] = targets_latex(outcome, note)
             written[f"{outcome.name}.csv"] = targets_csv(outcome, note)
             written[f"{outcome.name}_means.csv"] = means_csv(outcome, note)
+        elif isinstance(outcome, Preferences):
+            written[f"{outcome.name}.tex"] = preferred_latex(outcome, note)
+            written[f"{outcome.name}.csv"] = preferred_csv(outcome, note)
         elif outcome.mirrors is None and outcome.comparison.outcome is not None:
             written[f"{outcome.name}.tex"] = confusion_latex(outcome, note)
             written[f"{outcome.name}.csv"] = confusion_csv(outcome, note)
@@ -88,6 +92,8 @@ def draw(findings: Findings, labels: Mapping[str, str]) -> dict[str, Drawing]:
     for outcome in findings.outcomes.values():
         if isinstance(outcome, Targets):
             drawings.append(draw_targets(outcome, labels))
+        elif isinstance(outcome, Preferences):
+            drawings.append(draw_preferences(outcome, labels))
         elif outcome.mirrors is None:
             draw_one = draw_compared if outcome.comparison.outcome is None else draw_levels
             drawings.append(draw_one(outcome, labels))

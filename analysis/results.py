@@ -17,7 +17,7 @@ import numpy as np
 from analysis.chance import DEFINITIONS
 from analysis.further import SEED, Further
 from analysis.levels import Compared
-from analysis.plan import Findings, Levels, Targets
+from analysis.plan import Findings, Levels, Preferences, Targets
 from analysis.statistics.samples import Moments
 from analysis.statistics.t_test import TTest
 from analysis.target import AgainstChance, Recognised, Verdict
@@ -72,6 +72,8 @@ class Results:
             if isinstance(outcome, Targets):
                 content[outcome.name] = {s: _recognised(one, outcome) for s, one in outcome.results.items()}
                 content[f"{outcome.name}_means"] = outcome.means
+            elif isinstance(outcome, Preferences):
+                content[outcome.name] = outcome.results
             elif outcome.mirrors is None:
                 content[outcome.name] = {
                     name: _compared(one, outcome) for name, one in outcome.results.items()

@@ -67,7 +67,7 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        rf"  \caption{{{_noted(note)}"
+        rf"  \caption{{{noted(note)}"
         r"Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
         rf"perceived intensity ($I_P$), with counts. {escaped(confusion_note(outcome))}}}",
         rf"  \label{{tab:{outcome.name}}}",
@@ -126,7 +126,7 @@ def confusion_csv(outcome: Levels, note: str = "") -> str:
                     *_exact(one.choices, level),
                 )
             )
-    return _csv(head, rows, note)
+    return as_csv(head, rows, note)
 
 
 def targets_csv(outcome: Targets, note: str = "") -> str:
@@ -143,7 +143,7 @@ def targets_csv(outcome: Targets, note: str = "") -> str:
         tested = (test.t, test.df, one.against.test.p, one.verdict.p_adjusted, one.verdict.test, *d)
         exact = (one.against.exact.p, one.wilcoxon.z, one.wilcoxon.p)
         rows.append((one.stimulus, one.item, *summary, one.against.null, *tested, *exact))
-    return _csv(head, rows, note)
+    return as_csv(head, rows, note)
 
 
 def means_csv(outcome: Targets, note: str = "") -> str:
@@ -153,7 +153,7 @@ def means_csv(outcome: Targets, note: str = "") -> str:
         for stimulus, items in outcome.means.items()
         for item, one in items.items()
     ]
-    return _csv(("stimulus", "item", "n", "mean", "sd", "se"), rows, note)
+    return as_csv(("stimulus", "item", "n", "mean", "sd", "se"), rows, note)
 
 
 def targets_latex(outcome: Targets, note: str = "") -> str:
@@ -172,16 +172,16 @@ def targets_latex(outcome: Targets, note: str = "") -> str:
         p = probability(one.verdict.p_adjusted, outcome.judging.alpha).removeprefix("= ")
         lines.append(
             f"    {escaped(one.stimulus.capitalize())} & {one.summary.n} & "
-            f"{_math(number(one.summary.mean))} & {_math(number(one.summary.sd))} & "
-            f"{_math(number(test.t))} & "
-            f"{_math(degrees(test.df))} & {_math(p)} & "
-            f"{_math(number(test.d))} {_math(interval(test.d_ci95))} \\\\"
+            f"{in_math(number(one.summary.mean))} & {in_math(number(one.summary.sd))} & "
+            f"{in_math(number(test.t))} & "
+            f"{in_math(degrees(test.df))} & {in_math(p)} & "
+            f"{in_math(number(test.d))} {in_math(interval(test.d_ci95))} \\\\"
         )
     judging = outcome.judging
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        rf"  \caption{{{_noted(note)}Ratings of the intended expression against chance "
+        rf"  \caption{{{noted(note)}Ratings of the intended expression against chance "
         rf"({escaped(outcome.definition.says)}); {judging.test}, {judging.sides}, "
         rf"$p$ {judging.adjustment}.}}",
         rf"  \label{{tab:{outcome.name}}}",
@@ -201,7 +201,7 @@ def compared_csv(outcome: Levels, note: str = "") -> str:
         for one in outcome.results.values()
         for level, m in one.summaries.items()
     ]
-    return _csv(head, rows, note)
+    return as_csv(head, rows, note)
 
 
 def compared_latex(outcome: Levels, note: str = "") -> str:
@@ -220,11 +220,11 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
     for one in outcome.results.values():
         test = one.deciding_t
         p = probability(one.verdict.p_adjusted, outcome.judging.alpha).removeprefix("= ")
-        means = (f"{_math(number(m.mean))} ({_math(number(m.sd))})" for m in one.summaries.values())
+        means = (f"{in_math(number(m.mean))} ({in_math(number(m.sd))})" for m in one.summaries.values())
         lines.append(
-            f"    {escaped(_label(one))} & {' & '.join(means)} & {_math(number(test.t))} & "
-            f"{_math(degrees(test.df))} & {_math(p)} & "
-            f"{_math(number(test.d))} {_math(interval(test.d_ci95))} \\\\"
+            f"    {escaped(_label(one))} & {' & '.join(means)} & {in_math(number(test.t))} & "
+            f"{in_math(degrees(test.df))} & {in_math(p)} & "
+            f"{in_math(number(test.d))} {in_math(interval(test.d_ci95))} \\\\"
         )
     judging = outcome.judging
     sizes = "; ".join(
@@ -234,7 +234,7 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        rf"  \caption{{{_noted(note)}Ratings compared: {judging.test}, {judging.sides}, "
+        rf"  \caption{{{noted(note)}Ratings compared: {judging.test}, {judging.sides}, "
         rf"$p$ {judging.adjustment}. {sizes}.}}",
         rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
@@ -242,11 +242,13 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
     return "\n".join(lines) + "\n"
 
 
-def _noted(note: str) -> str:
+def noted(note: str) -> str:
+    """What a caption says of answers that are no data."""
     return rf"\textbf{{{escaped(note)}.}} " if note else ""
 
 
-def _math(text: str) -> str:
+def in_math(text: str) -> str:
+    """A number as LaTeX sets it."""
     return "--" if text == "–" else f"${text.replace('−', '-').replace('∞', chr(92) + 'infty')}$"
 
 
@@ -277,7 +279,7 @@ def _exact(choices: Choices, level: str) -> tuple[object, ...]:
     return test.p_one_sided, test.p_mid, choices.fisher.p, choices.binomial[level].p
 
 
-def _csv(head: Sequence[str], rows: Iterable[Sequence[object]], note: str) -> str:
+def as_csv(head: Sequence[str], rows: Iterable[Sequence[object]], note: str) -> str:
     """The rows below their head; what is no data says so in a last column."""
     extra = [note] if note else []
     file = io.StringIO(newline="")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from analysis import apa
 from analysis.drawing import Drawing
 from analysis.glossary import GLOSSARY, THREATS
-from analysis.plan import Levels, Targets
+from analysis.plan import Levels, Preferences, Targets
 from analysis.results import Results
 from analysis.words import claim, labels_of, method, sentences, summary, warnings
 
@@ -50,6 +50,7 @@ def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) 
         drawings=drawings,
         texts={name: claim(protocol, name, outcome) for name, outcome in outcomes.items()},
         targets=[outcome for outcome in outcomes.values() if isinstance(outcome, Targets)],
+        preferences=[outcome for outcome in outcomes.values() if isinstance(outcome, Preferences)],
         levels=[outcome for outcome in outcomes.values() if isinstance(outcome, Levels)],
         methods={name: method(outcome) for name, outcome in outcomes.items()},
         sentences={name: sentences(outcome) for name, outcome in outcomes.items()},

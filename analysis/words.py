@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from analysis import apa
-from analysis.plan import Findings, Levels, Outcome, Targets
+from analysis.plan import Findings, Levels, Outcome, Preferences, Targets
+from analysis.preference import Preferred
 from analysis.statistics.t_test import TTest
 from analysis.target import Judging, Verdict
 
@@ -14,7 +15,9 @@ if TYPE_CHECKING:
 
 
 def sentences(outcome: Outcome) -> dict[str, str]:
-    """The test of each stimulus or principle as a sentence for a paper."""
+    """The test of each stimulus, principle or pair as a sentence for a paper."""
+    if isinstance(outcome, Preferences):
+        return {name: _preferred(one, outcome.judging) for name, one in outcome.results.items()}
     tests = (
         {name: (one.against.t_test, one.verdict) for name, one in outcome.results.items()}
         if isinstance(outcome, Targets)
@@ -34,10 +37,22 @@ def _sentence(test: TTest, verdict: Verdict, judging: Judging) -> str:
     return f"{apa.t_sentence(test)}; {decided}"
 
 
+def _preferred(one: Preferred, judging: Judging) -> str:
+    """How many preferred the first, with the exact interval and test."""
+    test, compared = one.test, one.compared
+    share = f"{apa.bounded(test.estimate)}, 95% CI {apa.interval(test.ci95)}"
+    p = f"p {apa.probability(test.p, judging.alpha)}, {judging.sides}"
+    if judging.correction != "none":
+        p += f", {judging.adjustment} p {apa.probability(one.verdict.p_adjusted, judging.alpha)}"
+    return f"{test.k} of {test.n} preferred {compared.first} to {compared.second} ({share}), {p}"
+
+
 def summary(name: str, outcome: Outcome) -> str:
     """What was found, in one line."""
     found = [key for key, one in outcome.results.items() if one.verdict.significant]
-    what = "rated above chance" if isinstance(outcome, Targets) else "told apart as expected"
+    what = {Targets: "rated above chance", Preferences: "preferred as expected"}.get(
+        type(outcome), "told apart as expected"
+    )
     n, of = len(found), len(outcome.results)
     missed = [key for key in outcome.results if key not in found]
     but = f"; not {', '.join(missed)}" if missed and found else ""
@@ -73,6 +88,8 @@ def claim(protocol: Protocol, name: str, outcome: Outcome) -> str:
         return written
     if isinstance(outcome, Targets):
         return "the intended expression is seen"
+    if isinstance(outcome, Preferences):
+        return f"{outcome.compare[0]} is preferred to {outcome.compare[1]}"
     first, second = outcome.comparison.levels
     return f"{first} is told from {second}"
 
@@ -89,6 +106,9 @@ def method(outcome: Outcome) -> str:
             "Each clip's rating on its intended expression against chance: "
             f"{outcome.definition.says} ({outcome.definition.id}). {how}"
         )
+    if isinstance(outcome, Preferences):
+        first, second = outcome.compare
+        return f"Share that chose {first} over {second}, side by side, against one half; exact. {how}"
     first, second = outcome.comparison.levels
     share = f", share of “{outcome.comparison.outcome}”" if outcome.comparison.outcome else ""
     return f"{first.capitalize()} against {second} intensity{share}. {how}"

@@ -107,8 +107,8 @@ def test_the_preferred_one_is_what_the_hypothesis_says(paired):
 
 
 def test_power_is_that_of_the_binomial_test(paired):
-    # R: sum(dbinom(10:12, 12, .9)), as binom.test(9, 12, alternative = "greater")$p.value is 0.073
-    assert preference_power(12, 0.9, 0.05) == pytest.approx(0.8891300, abs=1e-6)
+    # R: sum(dbinom(10:12, 12, .9)), where 10 is the least k with binom.test(k, 12, alt = "g")$p.value < .05
+    assert preference_power(12, 0.9, 0.05) == pytest.approx(0.8891300223, rel=1e-9)
     found = {one.hypothesis: one for one in power(paired)}
     assert (found["H1"].tests, found["H1"].alpha) == (2, 0.025)
     assert (found["H2"].tests, found["H2"].effect) == (2, "share")
