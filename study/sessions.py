@@ -60,7 +60,10 @@ class Verdict(Enum):
     NOT_YET = "not yet"  # the step is unknown, or others come before it
 
 
-def steps(plan: Plan, *, demographics: bool = True, left_out: Collection[str] = ()) -> tuple[Step, ...]:
+Pages = tuple[Step, ...]
+
+
+def steps(plan: Plan, *, demographics: bool = True, left_out: Collection[str] = ()) -> Pages:
     """All pages between consent and debriefing, in order: demographics, instructions, practice, parts.
 
     `left_out` are the parts that earlier answers spare this participant.
@@ -87,6 +90,8 @@ def judge(submission_id: UUID, step: str, *, pages: Sequence[Step], answered: di
     if step in answered:
         return Verdict.KNOWN if answered[step] == submission_id else Verdict.ELSEWHERE
     due = next_step(pages, answered)
+    if submission_id in answered.values():
+        return Verdict.NOT_YET  # a browser makes an id for one page only
     return Verdict.STORE if due is not None and due.key == step else Verdict.NOT_YET
 
 

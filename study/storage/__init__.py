@@ -9,15 +9,16 @@ from __future__ import annotations
 import importlib
 import pkgutil
 
-from sqlalchemy import Engine, make_url
+from sqlalchemy import make_url
 from sqlalchemy.exc import ArgumentError
 
 from stimuli.errors import InputError
+from study.storage.database import Database
 from study.storage.store import Store
 
 __all__ = ["Store", "databases", "open_store"]
 
-NOT_DATABASES = {"backups", "migrations", "store", "tables"}
+NOT_DATABASES = {"archive", "backups", "database", "migrations", "store", "tables", "writer"}
 
 
 def databases() -> tuple[str, ...]:
@@ -35,5 +36,5 @@ def open_store(url: str) -> Store:
     kind = parsed.get_backend_name()
     if kind not in databases():
         raise InputError(f"{url!r}: {kind!r} databases are not known. Known: {', '.join(databases())}.")
-    engine: Engine = importlib.import_module(f"{__name__}.{kind}").engine(parsed)
-    return Store(engine)
+    database: Database = importlib.import_module(f"{__name__}.{kind}").open_database(parsed)
+    return Store(database)

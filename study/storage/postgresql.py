@@ -1,29 +1,47 @@
-"""PostgreSQL, for studies with several servers or many participants at once.
+"""PostgreSQL, where answers are to be kept on another machine than the server's.
 
-Writing transactions are serialised by one advisory lock: places in the design are handed out one at a time,
-as they are in SQLite. Durability is the server's default (`fsync` and `synchronous_commit` on).
+Durability is PostgreSQL's default (`fsync` and `synchronous_commit` on). Deleted rows are overwritten when it
+vacuums, by itself or as its administrator orders.
 """
 
 from __future__ import annotations
 
-from sqlalchemy import URL, Connection, Engine, create_engine, event
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+
+from sqlalchemy import URL, Engine, create_engine, text
 
 from stimuli.errors import InputError
+from study.storage.database import Database, holder
 
 LOCK = 0x5354554459  # "STUDY"
+HOLDER = text(
+    "SELECT application_name FROM pg_stat_activity JOIN pg_locks USING (pid)"
+    " WHERE locktype = 'advisory' AND granted AND datname = current_database()"
+)
 
 
-def engine(url: URL) -> Engine:
-    """An engine by psycopg 3."""
+def open_database(url: URL) -> Database:
+    """A database reached by psycopg 3."""
     try:
-        made = create_engine(url.set(drivername="postgresql+psycopg"), pool_pre_ping=True)
+        engine = create_engine(url.set(drivername="postgresql+psycopg"), pool_pre_ping=True)
     except ModuleNotFoundError as err:
         message = "PostgreSQL needs psycopg: pip install 'expressive-motion-study[postgresql]'"
         raise InputError(message) from err
+    return Database(engine, held=partial(_held, engine), purge=lambda: None)
 
-    @event.listens_for(made, "begin")
-    def begin(connection: Connection) -> None:
-        if connection.get_execution_options().get("assigns", False):
-            connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({LOCK})")
 
-    return made
+@contextmanager
+def _held(engine: Engine) -> Iterator[None]:
+    """Hold the database for as long as the block lasts, and the connection does."""
+    with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as db:
+        name = {"name": f"study: {holder()}", "lock": LOCK}
+        db.execute(text("SELECT set_config('application_name', :name, false)"), name)
+        if not db.execute(text("SELECT pg_try_advisory_lock(:lock)"), name).scalar():
+            by = db.execute(HOLDER).scalar()
+            raise InputError(f"{engine.url}: is being served by {by}. Stop that one first.")
+        try:
+            yield
+        finally:
+            db.execute(text("SELECT pg_advisory_unlock(:lock)"), name)

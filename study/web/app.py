@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, Response
+from sqlalchemy.exc import IntegrityError
 from starlette.exceptions import HTTPException
 
 from study.web import entry, experimenter, participant
@@ -85,5 +86,10 @@ def create_app(site: Site) -> FastAPI:
         """The first fault is enough: only programs see it."""
         first = fault.errors()[0]
         return JSONResponse({"reason": f"{'.'.join(map(str, first['loc']))}: {first['msg']}"}, 422)
+
+    @app.exception_handler(IntegrityError)
+    async def say_that_it_contradicts(_: Request, __: IntegrityError) -> Response:
+        """Such as an answer under way from somebody who withdrew meanwhile."""
+        return JSONResponse({"reason": "contradicts what is stored"}, 409)
 
     return app

@@ -10,7 +10,8 @@ from typing import Literal
 
 from study.balance import Balance, balance
 from study.sessions import next_step
-from study.storage.store import Event, Phase, Progress
+from study.storage.archive import Event, Progress
+from study.storage.store import Phase
 from study.web.participant import steps_of
 from study.web.site import Site
 

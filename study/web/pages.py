@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from functools import cache
+from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import Any
 
 import nh3
-from fastapi import Request
+from fastapi import FastAPI, Request
 from fastapi.responses import HTMLResponse
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markdown_it import MarkdownIt
@@ -17,7 +17,7 @@ from markupsafe import Markup
 import study.questions
 from study.questions import Question
 from study.web.language import load_language
-from study.web.site import site_of
+from study.web.site import Site
 
 HERE = Path(__file__).parent
 STATIC = HERE / "static"
@@ -53,7 +53,11 @@ def asset(name: str) -> str:
 
 
 def ask(
-    question: Question, number: int, language: str, items: tuple[str, ...], options: tuple[str, ...]
+    language: str,
+    question: Question,
+    number: int,
+    items: tuple[str, ...] = (),
+    options: tuple[str, ...] = (),
 ) -> Markup:
     """A question as HTML, by the template beside its kind."""
     shown = items or tuple(question.items)
@@ -72,29 +76,35 @@ def fragment(template: str, *, language: str, **values: Any) -> str:
     return _environment.get_template(template).render({"_": spoken.text, "language": language} | values)
 
 
+@lru_cache(maxsize=2048)
+def url(app: FastAPI, page: str, /, **parts: str) -> str:
+    """The address of a page."""
+    return str(app.url_path_for(page, **parts))
+
+
+@lru_cache(maxsize=32)
+def _shared(app: FastAPI, language: str) -> dict[str, Any]:
+    """What all pages in one language are filled in with."""
+    site: Site = app.state.site
+    return {
+        "_": load_language(language).text,
+        "language": language,
+        "languages": {code: load_language(code).name for code in site.protocol.languages},
+        "study_title": site.protocol.title.in_(language),
+        "contact": site.protocol.contact,
+        "texts": {name: text.in_(language) for name, text in site.protocol.texts},
+        "prose": prose,
+        "asset": asset,
+        "url": partial(url, app),
+        "ask": partial(ask, language),
+        "kind": site.kind,
+        "door": site.door,
+    }
+
+
 def render(
     request: Request, template: str, *, language: str, status: int = 200, **values: Any
 ) -> HTMLResponse:
     """A page."""
-    site = site_of(request)
-    spoken = load_language(language)
-    content = _environment.get_template(template).render(
-        {
-            "_": spoken.text,
-            "language": language,
-            "languages": {code: load_language(code).name for code in site.protocol.languages},
-            "study_title": site.protocol.title.in_(language),
-            "contact": site.protocol.contact,
-            "texts": {name: text.in_(language) for name, text in site.protocol.texts},
-            "prose": prose,
-            "asset": asset,
-            "url": lambda name, **parts: str(request.app.url_path_for(name, **parts)),
-            "ask": lambda question, number, items=(), options=(): ask(
-                question, number, language, items, options
-            ),
-            "kind": site.kind,
-            "door": site.door,
-        }
-        | values
-    )
+    content = _environment.get_template(template).render(_shared(request.app, language) | values)
     return HTMLResponse(content, status_code=status)

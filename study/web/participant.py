@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
-from collections.abc import Mapping
-from datetime import timedelta
+from collections.abc import Collection, Mapping
+from datetime import datetime, timedelta
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Form, Request
@@ -16,10 +17,11 @@ from study.orders import Shown, draw_plan
 from study.participants import Participant, new_completion_code
 from study.questions import AnswerError, Question
 from study.responses import Submission, playback_fault
-from study.sessions import Session, Step, Verdict, judge, next_step, plan_sha256, steps
+from study.sessions import Pages, Session, Step, Verdict, judge, next_step, plan_sha256, steps
+from study.storage.store import Visit
 from study.web.language import load_language
 from study.web.limits import count_wrong_guess, limits_of, require, require_guesses_left
-from study.web.pages import render
+from study.web.pages import render, url
 from study.web.site import Clip, Site, site_of
 from study.web.visitor import forget, language_of, participant_of, speaking, to, visit_of
 
@@ -35,13 +37,12 @@ class Event(BaseModel):
     detail: str = Field("", max_length=500)
 
 
-def steps_of(site: Site, session: Session, answers: Mapping[str, str] | None = None) -> tuple[Step, ...]:
-    """The pages of a session, as what was answered so far (and `answers`, on their way) leads to."""
+def steps_of(site: Site, session: Session, given: Mapping[str, Collection[str]] | None = None) -> Pages:
+    """The pages of a session, as the answers given so far lead to; those are looked up unless told."""
     conditional = [part for part in site.protocol.parts.values() if part.only_if]
-    given = site.store.given(session.participant) if conditional else {}
-    for item, answer in (answers or {}).items():
-        given.setdefault(item, set()).add(answer)
-    left_out = {part.id for part in conditional if not part.due(given)}
+    if conditional and given is None:
+        given = site.store.given(session.participant)
+    left_out = {part.id for part in conditional if not part.due(given or {})}
     return steps(session.plan, demographics=bool(site.protocol.demographics), left_out=left_out)
 
 
@@ -63,38 +64,46 @@ def _asked(site: Site, step: Step) -> list[Shown]:
 
 
 @router.get("/study", name="study")
-def study(request: Request) -> Response:
+async def study(request: Request) -> Response:
     """The page that is due, whatever was open before."""
-    site, language = site_of(request), language_of(request)
-    visit = visit_of(request)
+    site, visit = site_of(request), await visit_of(request)
     if visit is None:
         return to(request, "entry")
-    participant, session, phase = visit.participant, visit.session, visit.phase
+    session, phase = visit.session, site.store.phase
     if phase == "paused" or (phase == "closed" and session is None):
-        return _not_now(request, participant, language, paused=phase == "paused")
+        return _not_now(request, visit.participant, paused=phase == "paused")
     if session is None:
-        page = render(request, "consent.html", language=language, kind=participant.kind)
+        language = language_of(request)
+        page = render(request, "consent.html", language=language, kind=visit.participant.kind)
         return speaking(page, language)
-    pages = steps_of(site, session)
+    pages = steps_of(site, session, visit.given)
     step = next_step(pages, visit.answered)
     if step is None:
-        return render(
-            request,
-            "debrief.html",
-            language=session.language,
-            kind=participant.kind,
-            completion_code=session.completion_code,
-            completion_url=site.protocol.participants.recruitment.completion_address(
-                external_id=site.store.contact(participant.name).external_id, code=session.completion_code
-            ),
-        )
+        return _the_end(request, visit.participant, session)
     now = site.clock()
-    if site.store.show_page(participant.name, step.key, now=now) < now:
-        site.store.log("page_reopened", step.key, participant=participant.name, now=now)
-    return _page(request, participant, session, step=step, pages=pages)
+    if step.key in visit.shown:
+        site.store.log("page_reopened", step.key, participant=visit.participant.name, now=now)
+    else:
+        site.store.show_page(visit, step.key, now=now)
+    return _page(request, visit.participant, session, step=step, pages=pages)
 
 
-def _not_now(request: Request, participant: Participant, language: str, *, paused: bool) -> Response:
+def _the_end(request: Request, participant: Participant, session: Session) -> Response:
+    site = site_of(request)
+    recruitment = site.protocol.participants.recruitment
+    external_id = site.store.contact(participant.name).external_id if recruitment.completion_url else None
+    return render(
+        request,
+        "debrief.html",
+        language=session.language,
+        kind=participant.kind,
+        completion_code=session.completion_code,
+        completion_url=recruitment.completion_address(external_id=external_id, code=session.completion_code),
+    )
+
+
+def _not_now(request: Request, participant: Participant, *, paused: bool) -> Response:
+    language = language_of(request)
     say = load_language(language).text
     message = (
         say("Your answers are stored. Please come back to this page later; you go on where you were.")
@@ -141,20 +150,23 @@ def consent(request: Request, agreed: Annotated[str, Form()], language: Annotate
 
 
 @router.post("/study/answers", name="answers")
-def answers(request: Request, submission: Submission) -> JSONResponse:
+async def answers(request: Request, submission: Submission) -> JSONResponse:
     """Store an answered page. 200: it is on disk. 409: another page is due. 422: this cannot be an answer."""
-    site, visit = site_of(request), visit_of(request)
+    site, visit = site_of(request), await visit_of(request)
     if visit is None or visit.session is None:
         return JSONResponse({"reason": "no session"}, 409)
-    participant, session = visit.participant, visit.session
-    require(limits_of(request).sendings, participant.name)
-    pages = steps_of(site, session, submission.values)
+    require(limits_of(request).sendings, visit.participant.name)
+    values = submission.values
+    given = {item: {answer, *visit.given.get(item, ())} for item, answer in values.items()}
+    pages = steps_of(site, visit.session, {**visit.given, **given})
     verdict = judge(submission.id, submission.step, pages=pages, answered=visit.answered)
     if verdict is Verdict.STORE:
         due = next(page for page in pages if page.key == submission.step)
-        if fault := _fault(site, participant, due, submission):
+        now = site.clock()
+        if fault := _fault(site, visit, due, submission, now):
             return JSONResponse({"reason": fault}, 422)
-        verdict = site.store.add_response(participant.name, submission, steps=pages, now=site.clock())
+        storing = site.store.add_response(visit, submission, steps=pages, now=now)
+        verdict = await asyncio.wrap_future(storing)
     stored = verdict in {Verdict.STORE, Verdict.KNOWN}
     return JSONResponse({"reason": verdict.value}, 200 if stored else 409)
 
@@ -166,7 +178,7 @@ def events(request: Request, event: Event) -> Response:
     if participant is None:
         raise HTTPException(409)
     require(limits_of(request).sendings, participant.name)
-    site.store.log(event.name, event.detail, participant=participant.name, now=site.clock())
+    site.store.log(event.name, event.detail, participant=participant.name, now=site.clock()).result()
     return Response(status_code=204)
 
 
@@ -236,10 +248,10 @@ def _page(
             {"role": role, "url": _address(request, clip), "size": clip.size} for role, clip in clips.items()
         ],
         "ahead": [_address(request, clip) for clip in site.clips_on(ahead).values()] if ahead else [],
-        "answer_url": request.app.url_path_for("answers"),
+        "answer_url": url(request.app, "answers"),
         "replays": site.protocol.video.replays,
-        "event_url": request.app.url_path_for("events"),
-        "next_url": request.app.url_path_for("study"),
+        "event_url": url(request.app, "events"),
+        "next_url": url(request.app, "study"),
         "texts": {name: say(english) for name, english in PAGE_TEXTS.items()},
     }
     template = f"{step.kind}.html"
@@ -265,7 +277,7 @@ PAGE_TEXTS = {
 }
 
 
-def _fault(site: Site, participant: Participant, step: Step, submission: Submission) -> str | None:
+def _fault(site: Site, visit: Visit, step: Step, submission: Submission, now: datetime) -> str | None:
     values = submission.values
     try:
         for question in questions_of(site, step):
@@ -277,15 +289,15 @@ def _fault(site: Site, participant: Participant, step: Step, submission: Submiss
     if step.trial is None:
         return None
     durations_s = {role: clip.duration_s for role, clip in site.clips_on(step.trial).items()}
-    now = site.clock()
-    elapsed_s = (now - site.store.show_page(participant.name, step.key, now=now)).total_seconds()
+    shown_at = visit.shown_at(step.key)
+    elapsed_s = (now - shown_at).total_seconds() if shown_at else 0.0
     return playback_fault(
         submission.views,
         durations_s,
-        elapsed_s=None if participant.kind == "simulated" else elapsed_s,
+        elapsed_s=None if visit.participant.kind == "simulated" else elapsed_s,
         replays=site.protocol.video.replays,
     )
 
 
 def _address(request: Request, clip: Clip) -> str:
-    return str(request.app.url_path_for("clip", name=clip.name))
+    return url(request.app, "clip", name=clip.name)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
+
 from fastapi import Request
 from fastapi.responses import RedirectResponse, Response
 
 from study.participants import Participant, token_sha256
 from study.storage.store import Visit
 from study.web.language import preferred
+from study.web.pages import url
 from study.web.site import site_of
 
 TOKEN = "participant"  # the cookie that holds the token of a personal link
@@ -30,15 +33,18 @@ def participant_of(request: Request) -> Participant | None:
     return site_of(request).store.participant(token_sha256(token)) if token else None
 
 
-def visit_of(request: Request) -> Visit | None:
+async def visit_of(request: Request) -> Visit | None:
     """Whose cookie came with the request, and how far they have come."""
-    token = request.cookies.get(TOKEN)
-    return site_of(request).store.visit(token_sha256(token)) if token else None
+    token, store = request.cookies.get(TOKEN), site_of(request).store
+    if token is None:
+        return None
+    known = token_sha256(token)
+    return store.remembered(known) or await asyncio.wrap_future(store.visit(known))
 
 
 def to(request: Request, name: str) -> RedirectResponse:
     """The way to another page."""
-    return RedirectResponse(request.app.url_path_for(name), status_code=303)
+    return RedirectResponse(url(request.app, name), status_code=303)
 
 
 def remember(request: Request, token: str) -> Response:

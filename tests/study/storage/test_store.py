@@ -23,7 +23,7 @@ from study.participants import (
 from study.responses import Answer, Submission
 from study.sessions import Session, Verdict, plan_sha256, steps
 from study.storage import Store, open_store
-from study.storage.store import Phase
+from study.storage.store import Phase, Visit
 
 NOON = datetime(2026, 11, 22, 12, tzinfo=UTC)
 HOUR = timedelta(hours=1)
@@ -47,7 +47,23 @@ def begin(store: Store, participant: Participant, now: datetime = NOON) -> Sessi
 
 def answer(store: Store, session: Session, step: str, now: datetime = NOON) -> Verdict:
     submission = Submission(id=uuid4(), step=step, answers=(Answer(item="joy", value="5"),), on_page_ms=1)
-    return store.add_response(session.participant, submission, steps=steps(session.plan), now=now)
+    return send(store, session, submission, now=now)
+
+
+def send(store: Store, session: Session, submission: Submission, now: datetime = NOON) -> Verdict:
+    visit = visit_of(store, session)
+    return store.add_response(visit, submission, steps=steps(session.plan), now=now).result()
+
+
+def visit_of(store: Store, session: Session) -> Visit:
+    [token] = [
+        row.participant.token_sha256
+        for row in store.progress()
+        if row.participant.name == session.participant
+    ]
+    visit = store.remembered(token) or store.visit(token).result()
+    assert visit is not None
+    return visit
 
 
 def test_a_token_opens_its_session_and_is_not_stored(store: Store) -> None:
@@ -86,7 +102,7 @@ def test_an_answer_sent_again_is_stored_once(store: Store) -> None:
     session = begin(store, invite(store))
     pages = steps(session.plan)
     submission = Submission(id=uuid4(), step=pages[0].key, on_page_ms=1)
-    verdicts = [store.add_response(session.participant, submission, steps=pages, now=NOON) for _ in range(3)]
+    verdicts = [send(store, session, submission) for _ in range(3)]
     assert verdicts == [Verdict.STORE, Verdict.KNOWN, Verdict.KNOWN]
     assert answer(store, session, pages[0].key) is Verdict.ELSEWHERE
     assert answer(store, session, pages[2].key) is Verdict.NOT_YET
@@ -116,7 +132,7 @@ def test_the_last_answer_completes_the_session(store: Store) -> None:
 def test_a_withdrawal_leaves_nothing_but_a_dated_note(store: Store) -> None:
     session = begin(store, invite(store))
     stays = begin(store, invite(store))
-    store.show_page(session.participant, "demographics", now=NOON)
+    store.show_page(visit_of(store, session), "demographics", now=NOON)
     answer(store, session, "demographics")
     answer(store, stays, "demographics")
     store.log("video_failed", "clip", participant=session.participant, now=NOON)
@@ -170,13 +186,18 @@ def test_answers_are_counted_from_a_moment_on_and_tests_are_not(store: Store) ->
 
 def test_a_page_is_first_shown_once(store: Store) -> None:
     session = begin(store, invite(store))
-    assert store.show_page(session.participant, "demographics", now=NOON) == NOON
-    assert store.show_page(session.participant, "demographics", now=NOON + HOUR) == NOON
+    store.show_page(visit_of(store, session), "demographics", now=NOON)
+    answer(store, session, "demographics", NOON + HOUR)
+    for _ in range(2):  # as remembered, then as read
+        visit = visit_of(store, session)
+        assert visit.shown_at("demographics") == NOON
+        assert visit.shown_at("part:1") == NOON + HOUR, "not before the page before it was answered"
+        store.recruit(new_participant(new_token(), kind="test", created_at=NOON), Contact())
 
 
 def test_sqlite_is_set_to_lose_nothing(tmp_path: Path) -> None:
     store = open_store(f"sqlite:///{tmp_path}/study.db")
-    with store._read.begin() as db:
+    with store._engine.begin() as db:
         for name, value in {
             "journal_mode": "wal",
             "synchronous": 2,

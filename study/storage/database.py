@@ -1,0 +1,25 @@
+"""What the store needs of a kind of database."""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+
+from sqlalchemy import Engine
+
+
+@dataclass(frozen=True)
+class Database:
+    """An open database, and what each kind does in a way of its own."""
+
+    engine: Engine
+    held: Callable[[], AbstractContextManager[object]]  # by this server alone, or InputError says by whom
+    purge: Callable[[], None]  # leave no trace of rows that were deleted
+
+
+def holder() -> str:
+    """How this process names itself to another that wants the same database."""
+    return f"process {os.getpid()} on {socket.gethostname()}"
