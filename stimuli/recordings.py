@@ -63,9 +63,8 @@ def gestures_as_markdown(described: Mapping[str, Mapping[str, float]]) -> str:
             "# The gestures beside real ones",
             "",
             "Authored gestures, and, in italics, five animations by Pepper's makers (measured, not included: "
-            "softbankrobotics-labs/pepper-core-anims, BSD-3-Clause). < and > mark what lies below or above "
-            "all of these. The authored ones move as many joints, are as smooth or smoother, rest at both "
-            "ends, and are on the calm side, which leaves the robot room to exaggerate them.",
+            "softbankrobotics-labs/pepper-core-anims, BSD-3-Clause). What would lie below or above all of "
+            "these is marked < or >: nothing does. All authored gestures rest at both ends.",
             "",
             f"| gesture | {' | '.join(MEASURED)} |",
             "|---" * (len(MEASURED) + 1) + "|",

@@ -14,7 +14,7 @@ from stimuli.emotions import FINDINGS, SOURCES, change, emotions_as_markdown
 from stimuli.feasibility import violations
 from stimuli.gestures import read_gesture
 from stimuli.principles import Modulation
-from stimuli.recordings import gestures_as_markdown, recorded_range, rests
+from stimuli.recordings import MEASURED, gestures_as_markdown, recorded_range, rests
 from stimuli.robots import load_robot
 
 STUDY = Path("protocols/hielscher2025")
@@ -67,15 +67,12 @@ def test_a_higher_level_is_further_from_neutral_and_the_robot_can_do_it(kind, pe
     assert np.all(np.diff(away) > np.radians(5))
 
 
-def test_gestures_move_the_whole_body_as_smoothly_as_real_ones_and_rest_at_both_ends(pepper, shown):
+def test_gestures_are_within_the_range_of_real_ones_and_rest_at_both_ends(pepper, shown):
     for name, gesture in shown.items():
         described = describe(gesture, pepper)
-        for descriptor in ("joints_moving", "sparc"):
+        for descriptor in MEASURED:
             least, most = recorded_range(descriptor)
             assert least <= described[descriptor] <= most, (name, descriptor)
-        assert described["log_dimensionless_jerk"] >= recorded_range("log_dimensionless_jerk")[0], name
-        for descriptor in ("amplitude", "speed_peak", "acceleration_peak"):
-            assert described[descriptor] <= recorded_range(descriptor)[1], (name, descriptor)
         assert rests(gesture) == (True, True), name
 
 
