@@ -55,6 +55,8 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
         return undefined("one condition only")
     if any(np.ptp(y[covariate == level]) == 0 for level in np.unique(covariate)):
         return undefined("complete separation in a condition")
+    if not _both_ways(y, covariate, group):
+        return undefined("whoever answers differently does so in one direction")
     model = _Model(y, covariate, group, count)
     fit = minimize(model.negative, np.array([0.0, 0.0, 0.0]), method="BFGS", options={"gtol": 1e-6})
     intercept, effect, log_sd = (float(value) for value in fit.x)
@@ -72,6 +74,13 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
         participant_sd=float(np.exp(log_sd)),
         log_likelihood=-float(fit.fun),
     )
+
+
+def _both_ways(y: FloatArray, x: FloatArray, group: IntArray) -> bool:
+    """Whether some participants answer yes more often where x is higher and some less often, or none does."""
+    within = x - (np.bincount(group, x) / np.bincount(group))[group]
+    slopes = np.bincount(group, within * y)
+    return bool((slopes > 1e-12).any() == (slopes < -1e-12).any())
 
 
 class _Model:

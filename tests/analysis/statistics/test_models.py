@@ -175,3 +175,8 @@ def test_label_permutation_counts_every_way_to_name_the_target(rows: list[tuple[
     observed = sum(row[0] for row in rows)
     share = np.mean([sum(ways) >= observed for ways in product(*rows)])
     assert label_permutation(rows, target=0).p == pytest.approx(share)
+
+
+def test_a_logistic_mixed_model_that_nobody_contradicts_is_unbounded() -> None:
+    fit = logistic_mixed([1, 0, 1, 0, 1, 1, 0, 0], [1, 0] * 4, [1, 1, 2, 2, 3, 3, 4, 4])
+    assert fit.reason == "undefined: whoever answers differently does so in one direction"
