@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Annotated
 
 import segno
-from babel.dates import format_datetime
+from babel.dates import format_skeleton, format_time
 from fastapi import APIRouter, Form, Request
 from fastapi.responses import RedirectResponse, Response, StreamingResponse
 from markupsafe import Markup
@@ -26,7 +26,7 @@ from study.storage.store import Phase
 from study.web.credentials import LOGIN_LASTS
 from study.web.language import load_language
 from study.web.limits import count_wrong_guess, require_guesses_left
-from study.web.overview import may_see_report, overview
+from study.web.overview import TROUBLES, may_see_report, overview
 from study.web.pages import fragment, render
 from study.web.site import hashes, site_of
 from study.web.visitor import language_of, to
@@ -248,9 +248,11 @@ def _page(request: Request, template: str) -> Response:
 
 
 def _live_part(request: Request) -> str:
-    language = language_of(request)
+    language, seen = language_of(request), overview(site_of(request))
+    locale = language.replace("-", "_")
 
     def moment(when: datetime) -> str:
-        return format_datetime(when.astimezone(), "d MMM, HH:mm", locale=language.replace("-", "_"))
+        here = when.astimezone()
+        return f"{format_skeleton('MMMd', here, locale=locale)}, {format_time(here, 'short', locale=locale)}"
 
-    return fragment("overview.html", language=language, seen=overview(site_of(request)), moment=moment)
+    return fragment("overview.html", language=language, seen=seen, troubles=TROUBLES, moment=moment)

@@ -19,7 +19,12 @@ State = Literal["invited", "active", "stalled", "completed"]
 STATES: tuple[State, ...] = ("invited", "active", "stalled", "completed")
 STALLED_AFTER = timedelta(minutes=5)  # without an answer: a sign, long before the place is given away
 HOURS = 24
-TROUBLES = ("video_failed", "video_retried", "answer_refused", "page_reopened")
+TROUBLES = {  # events the experimenter should know of, and what they are called
+    "video_failed": "a video failed",
+    "video_retried": "a video had to be loaded again",
+    "answer_refused": "an answer was refused",
+    "page_reopened": "a page was opened again",
+}
 
 
 @dataclass(frozen=True)

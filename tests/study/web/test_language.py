@@ -9,7 +9,7 @@ import pytest
 import study.questions
 from study.storage.store import Phase
 from study.web.language import CATALOGUES, load_language, preferred
-from study.web.overview import STATES
+from study.web.overview import STATES, TROUBLES
 from study.web.pages import HERE
 from study.web.participant import PAGE_TEXTS
 
@@ -21,7 +21,7 @@ def english_texts() -> set[str]:
     sources = [*HERE.glob("templates/*.html"), *Path(study.questions.__file__).parent.glob("*.html")]
     sources += HERE.glob("*.py")
     found = {one or other for source in sources for one, other in SPOKEN.findall(source.read_text("utf-8"))}
-    return found | set(PAGE_TEXTS.values()) | {*STATES, "free", *get_args(Phase)}
+    return found | set(PAGE_TEXTS.values()) | {*STATES, "free", *TROUBLES.values(), *get_args(Phase)}
 
 
 @pytest.mark.parametrize("catalogue", sorted(CATALOGUES.glob("*.po")), ids=lambda path: path.stem)
