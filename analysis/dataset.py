@@ -16,16 +16,8 @@ from typing import TYPE_CHECKING, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.rows import (
-    MISSING,
-    OPTIONAL,
-    REQUIRED,
-    ResponsesError,
-    Rows,
-    named_columns,
-    read_header,
-    read_rows,
-)
+from analysis.fields import ResponsesError, read_header
+from analysis.rows import MISSING, OPTIONAL, REQUIRED, Rows, named_columns, read_rows
 from analysis.wide import answer_columns, read_wide, unknown_names
 from study.participants import Kind
 from study.protocol.parts import series_of
@@ -142,10 +134,11 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     line. Raises ResponsesError.
     """
     rows = _read(path, protocol, columns or {})
+    participants = tuple(sorted(name for name in rows.names("participant") if name))
     empty = [
         Answers(
             part=part.id,
-            participants=tuple(sorted(name for name in rows.names("participant") if name)),
+            participants=participants,
             stimuli=part.stimuli,
             items=tuple(question.items),
             options=tuple(question.values),
@@ -162,11 +155,12 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     which = _question_of_each_row(rows, protocol, empty)
     nobody = rows.codes("participant", {"": 0}) == 0
     rows.refuse_if((which >= 0) & nobody, "has no participant")
-    filled = [_fill(question, rows, np.flatnonzero(which == q)) for q, question in enumerate(empty)]
-    participants = empty[0].participants if empty else ()
+    filled = [_fill(question, rows, which == q) for q, question in enumerate(empty)]
+    with path.open("rb") as file:
+        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     return Responses(
         path=path,
-        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        sha256=sha256,
         participants=participants,
         questions=tuple(question for question in filled if question.expected is None),
         checks=tuple(question for question in filled if question.expected is not None),
@@ -199,7 +193,7 @@ def _read(path: Path, protocol: Protocol, said: Mapping[str, str]) -> Rows:
 
 def _kind(rows: Rows) -> Kind:
     """Whose answers these are, by the column `session`; without it, participants'."""
-    if "session" not in rows.frame:
+    if "session" not in rows.columns:
         return "participant"
     kinds = get_args(Kind)
     code = rows.codes("session", {kind: place for place, kind in enumerate(kinds)} | {"": 0})
@@ -222,7 +216,7 @@ def _kind(rows: Rows) -> Kind:
     return kind
 
 
-def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[Answers]) -> NDArray[np.int64]:
+def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[Answers]) -> NDArray[np.int16]:
     """Index of the question a row answers, (rows,); −1 for rows that no test is about."""
     asked = {
         (stimulus, item): q
@@ -252,13 +246,11 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
         return unknown_item if stimulus in judged else unknown_stimulus
 
     stimuli, names = rows.names("stimulus"), rows.names("item")
-    places = np.array([place(s, i) for s in stimuli for i in names], dtype=np.int64)
-    stimulus_codes = rows.codes("stimulus", {name: i for i, name in enumerate(stimuli)})
-    item_codes = rows.codes("item", {name: i for i, name in enumerate(names)})
-    which: NDArray[np.int64] = places[stimulus_codes * len(names) + item_codes]
-    if "part" in rows.frame:  # rows of pages that belong to no part: demographics, attention checks
-        elsewhere = rows.codes("part", {"": 0} | dict.fromkeys(protocol.parts, 0)) < 0
-        which = np.where(elsewhere, unasked, which)
+    places = np.array([place(s, i) for s in stimuli for i in names], dtype=np.int16)
+    table = places.reshape(len(stimuli), len(names))
+    which: NDArray[np.int16] = table[rows.columns["stimulus"].codes, rows.columns["item"].codes]
+    if "part" in rows.columns:  # rows of pages that belong to no part: demographics, attention checks
+        which[rows.codes("part", {"": 0} | dict.fromkeys(protocol.parts, 0)) < 0] = unasked
     rows.refuse_if(
         which == unknown_stimulus,
         lambda row: (
@@ -276,7 +268,7 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
     return which
 
 
-def _fill(question: Answers, rows: Rows, mine: NDArray[np.int64]) -> Answers:
+def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_]) -> Answers:
     """The question with the answers of its rows."""
     shape = (len(question.participants), len(question.stimuli), len(question.items))
     places = [
@@ -290,7 +282,7 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.int64]) -> Answers:
     options = {answer: _place(answer, question.options) for answer in rows.names("response")}
     answers = rows.codes("response", options, unknown=UNKNOWN)[mine]
     rows.refuse_if(
-        _among(mine, answers == UNKNOWN, len(rows.frame)),
+        _among(mine, answers == UNKNOWN),
         lambda row: (
             f"response {rows.value('response', row)!r} is not an answer to "
             f"{rows.value('item', row)}; known: {', '.join(question.options)}, or empty for none"
@@ -316,32 +308,33 @@ def _place(answer: str, options: Sequence[str]) -> int:
         return UNKNOWN
 
 
-def _refuse_duplicates(rows: Rows, mine: NDArray[np.int64], cells: NDArray[np.int64], size: int) -> None:
-    if not np.any(np.bincount(cells, minlength=size) > 1):
+def _refuse_duplicates(rows: Rows, mine: NDArray[np.bool_], cells: NDArray[np.int64], size: int) -> None:
+    answered = np.zeros(size, dtype=bool)
+    answered[cells] = True
+    if np.count_nonzero(answered) == cells.size:
         return
-    _, first = np.unique(cells, return_index=True)
     again = np.ones(cells.size, dtype=bool)
-    again[first] = False
+    again[np.unique(cells, return_index=True)[1]] = False
 
     def message(row: int) -> str:
-        cell = cells[np.searchsorted(mine, row)]
-        earlier = int(mine[np.argmax(cells == cell)])
+        cell = cells[np.count_nonzero(mine[:row])]
+        earlier = int(np.flatnonzero(mine)[np.argmax(cells == cell)])
         answered = ", ".join(rows.value(column, row) for column in ("participant", "stimulus", "item"))
         return f"second answer to ({answered}); the first is in line {rows.line(earlier)}. Keep one of them"
 
-    rows.refuse_if(_among(mine, again, len(rows.frame)), message)
+    rows.refuse_if(_among(mine, again), message)
 
 
-def _among(mine: NDArray[np.int64], bad: NDArray[np.bool_], n: int) -> NDArray[np.bool_]:
-    """A mark on the rows of `mine` that are bad, over all n rows."""
-    marked = np.zeros(n, dtype=bool)
-    marked[mine[bad]] = True
+def _among(mine: NDArray[np.bool_], bad: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which of all rows are bad, given which of `mine` are."""
+    marked = mine.copy()
+    marked[mine] = bad
     return marked
 
 
 def _trials(rows: Rows, protocol: Protocol, participants: tuple[str, ...]) -> dict[str, FloatArray]:
     """When in its part each participant saw each stimulus, by the column `trial`."""
-    if "trial" not in rows.frame:
+    if "trial" not in rows.columns:
         return {}
     number = {name: int(name) if name.isdecimal() else MISSING for name in rows.names("trial")}
     trial = rows.codes("trial", number)
@@ -358,16 +351,33 @@ def _trials(rows: Rows, protocol: Protocol, participants: tuple[str, ...]) -> di
 
 def _median_rt_s(rows: Rows, mine: NDArray[np.bool_], participants: tuple[str, ...]) -> FloatArray | None:
     """Each participant's median time per answer, (participants,)."""
-    if "rt_ms" not in rows.frame:
+    if "rt_ms" not in rows.columns:
         return None
-    import pandas as pd
-
-    person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
-    written = rows.frame["rt_ms"].str.replace(",", ".")
-    times = pd.to_numeric(written, errors="coerce").to_numpy(dtype=float)
+    times = np.array([_milliseconds(written) for written in rows.names("rt_ms")])[rows.columns["rt_ms"].codes]
     rows.refuse_if(
-        mine & np.isnan(times) & (written != "").to_numpy(),
+        mine & np.isinf(times),
         lambda row: f"rt_ms {rows.value('rt_ms', row)!r} is not a number of milliseconds",
     )
-    medians = pd.Series(times[mine]).groupby(person[mine]).median() / 1000
-    return medians.reindex(range(len(participants))).to_numpy(dtype=float)
+    person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
+    timed = mine & ~np.isnan(times)
+    return _medians(times[timed] / 1000, person[timed], len(participants))
+
+
+def _milliseconds(written: str) -> float:
+    """A number, NaN where nothing is written, infinity where it is no number."""
+    try:
+        number = float(written.replace(",", ".") or "nan")
+    except ValueError:
+        return np.inf
+    return number if np.isfinite(number) or not written else np.inf
+
+
+def _medians(values: FloatArray, groups: NDArray[np.int32], number: int) -> FloatArray:
+    """The median of each group, (number,); NaN where it is empty."""
+    ordered = values[np.lexsort((values, groups))]
+    sizes = np.bincount(groups, minlength=number)
+    first, there = np.cumsum(sizes) - sizes, sizes > 0
+    medians = np.full(number, np.nan)
+    lower, upper = ((first + (sizes - 1) // 2)[there], (first + sizes // 2)[there])
+    medians[there] = (ordered[lower] + ordered[upper]) / 2
+    return medians

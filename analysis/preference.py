@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from analysis.dataset import Answers
-from analysis.rows import ResponsesError
+from analysis.fields import ResponsesError
 from analysis.statistics.binomial import Binomial, binomial
 from analysis.target import Judging, Verdict, judge
 

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis.rows import OPTIONAL, REQUIRED, ResponsesError, Rows, read_columns
+from analysis.columns import Column, read_columns
+from analysis.fields import ResponsesError
+from analysis.rows import OPTIONAL, REQUIRED, Rows
 
 Asked = Mapping[str, Sequence[str]]  # stimulus → items
 IMPORT_ID = '{"ImportId"'  # in the third line of Qualtrics' tables
@@ -36,27 +38,28 @@ def answer_columns(
 
 def read_wide(path: Path, columns: Mapping[str, str], answers: Mapping[tuple[str, str], str]) -> Rows:
     """Read such a table as rows of one answer each; `answers` as from `answer_columns`."""
-    import pandas as pd
-
     if "participant" not in columns:
         raise ResponsesError(
             f"{path}:1: has one column per answer, but none called participant; name it as in "
             "--column participant=ResponseId"
         )
     carried = [name for name in ("participant", "session") if name in columns]
-    frame = read_columns(
-        path, dict.fromkeys([columns[name] for name in carried] + [*answers.values()], "str")
-    )
-    skipped = 2 if any(IMPORT_ID in str(cell) for cell in frame.iloc[1:2].to_numpy().ravel()) else 0
-    frame = frame.iloc[skipped:]
-    n, k = len(frame), len(answers)
+    found = read_columns(path, {*(columns[name] for name in carried), *answers.values()})
+    skipped = 2 if any(IMPORT_ID in one.at(1) for one in found.values() if one.codes.size > 1) else 0
+    given = [found[theirs] for theirs in answers.values()]
+    records, k = given[0].codes.size - skipped, len(given)
+    first = np.cumsum([0, *(len(one.values) for one in given)])  # of each column's values among all
+    placed = [one.codes[skipped:] + start for one, start in zip(given, first, strict=False)]
     long = {
-        name: pd.Categorical(np.repeat(frame[columns[name]].to_numpy(dtype=object), k)) for name in carried
+        name: Column.of(found[theirs].values, np.repeat(found[theirs].codes[skipped:], k))
+        for name, theirs in columns.items()
+        if name in carried
     }
     for place, name in enumerate(("stimulus", "item")):
-        long[name] = pd.Categorical(np.tile([answer[place] for answer in answers], n))
-    long["response"] = pd.Categorical(frame[[*answers.values()]].to_numpy(dtype=object).ravel())
-    return Rows(path, pd.DataFrame(long), per_record=k, skipped=skipped)
+        long[name] = Column.of([answer[place] for answer in answers], np.tile(np.arange(k), records))
+    values = [value for one in given for value in one.values]
+    long["response"] = Column.of(values, np.stack(placed, axis=1).ravel())
+    return Rows(path, long, per_record=k, skipped=skipped)
 
 
 def unknown_names(said: Mapping[str, str], asked: Asked) -> list[str]:

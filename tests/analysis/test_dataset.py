@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from analysis.dataset import Responses, read_responses
+from analysis.fields import ResponsesError
 from analysis.published import HIGHER
-from analysis.rows import ResponsesError
 from study.protocol import Protocol
 from tests.analysis.conftest import EMOTIONS, Write, choices, ratings
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from analysis.dataset import read_responses
+from analysis.fields import ResponsesError
 from analysis.plan import carry_out
 from analysis.report import analyse
-from analysis.rows import ResponsesError
 from analysis.simulated_power import simulated_power
 from study.protocol import load_protocol
 

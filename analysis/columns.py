@@ -1,0 +1,152 @@
+"""Columns of a CSV file: every distinct value once, and for each row only its number.
+
+Five million rows take some bytes per row and column, whatever the length of their values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analysis.fields import Fields, Places, read_fields, read_header
+
+WORD = 8  # bytes compared at once
+KEEP = np.array([(1 << 8 * length) - 1 for length in range(WORD + 1)], dtype=np.uint64)  # of the first bytes
+NO_WORD = (1 << 8 * WORD) - 1  # larger than any: UTF-8 has no byte 255
+
+Words = NDArray[np.uint64]
+Numbers = NDArray[np.int64]
+Codes = NDArray[np.integer]
+
+
+@dataclass(frozen=True)
+class Column:
+    """The values of a column."""
+
+    values: Sequence[str]  # distinct; each occurs
+    codes: Codes  # (rows,) index of each row's value
+
+    @classmethod
+    def of(cls, values: Sequence[str], codes: Codes) -> Column:
+        """From values that may stand twice or not occur."""
+        occurring = np.unique(codes)
+        distinct = list(dict.fromkeys(values[code] for code in occurring))
+        place = {value: i for i, value in enumerate(distinct)}
+        places = np.zeros(len(values), dtype=np.int64)
+        places[occurring] = [place[values[code]] for code in occurring]
+        return cls(distinct, places[codes])
+
+    def at(self, row: int) -> str:
+        """The value of one row."""
+        return self.values[int(self.codes[row])]
+
+
+def read_columns(path: Path, names: Iterable[str]) -> dict[str, Column]:
+    """Columns of a file as the texts that stand there, none of them taken for a number or a missing value."""
+    header = read_header(path)
+    gathered = {name: _Gathered(header.index(name)) for name in names}
+    below_header = 1
+    for fields in read_fields(path, len(header)):
+        for column in gathered.values():
+            column.add(fields, below_header)
+        below_header = 0
+    return {name: column.whole() for name, column in gathered.items()}
+
+
+class _Gathered:
+    """A column while it is read."""
+
+    def __init__(self, place: int) -> None:
+        self.place = place
+        self.values: list[str] = []
+        self.blocks: list[Codes] = []
+        self.spellings = _Spellings()
+        self.codes = np.empty(0, dtype=np.int32)  # of spellings; −1 where it is but the beginning of one
+
+    def add(self, fields: Fields, below: int) -> None:
+        """Add the rows of a block from the row `below` on."""
+        starts, ends = fields.starts[below:, self.place], fields.ends[below:, self.place]
+        first = _first_of_runs(fields.text, starts, ends - starts)
+        lengths = np.diff(first, append=starts.size)
+        codes = self._codes(fields.text, starts[first], ends[first])
+        self.blocks.append(np.repeat(codes.astype(np.min_scalar_type(len(self.values))), lengths))
+
+    def _codes(self, text: bytes, starts: Places, ends: Places) -> Codes:
+        """The code of each value, (values,); new values get the next ones, in the order of rows."""
+        spelling = self.spellings.numbers(text, starts, ends - starts)
+        if (more := self.spellings.size - self.codes.size) > 0:
+            self.codes = np.append(self.codes, np.full(more, -1, dtype=np.int32))
+        new = np.flatnonzero(self.codes[spelling] < 0)
+        for place in np.sort(np.unique(spelling[new], return_index=True)[1]):
+            at = new[place]
+            self.codes[spelling[at]] = len(self.values)
+            self.values.append(text[starts[at] : ends[at]].decode().replace('""', '"'))
+        codes: Codes = self.codes[spelling]
+        return codes
+
+    def whole(self) -> Column:
+        """The column when all is read."""
+        return Column(self.values, np.concatenate([np.empty(0, dtype=np.uint8), *self.blocks]))
+
+
+def _words(text: bytes, starts: Places, lengths: Places) -> Words:
+    """The first eight bytes of each value, (rows,); zeros where it is shorter."""
+    at_every_byte: Words = np.ndarray((len(text) - WORD,), "<u8", text, strides=(1,))
+    return at_every_byte[starts] & KEEP[np.minimum(lengths, WORD)]
+
+
+def _first_of_runs(text: bytes, starts: Places, lengths: Places) -> Places:
+    """The rows that hold another value than the row before."""
+    new = np.ones(starts.size, dtype=bool)
+    word = _words(text, starts, lengths)
+    new[1:] = (word[1:] != word[:-1]) | (lengths[1:] != lengths[:-1])
+    for done in range(WORD, int(lengths.max(initial=0)), WORD):
+        longer = np.flatnonzero(lengths > done)
+        word = _words(text, starts[longer] + done, lengths[longer] - done)
+        new[longer[1:]] |= word[1:] != word[:-1]
+    return np.flatnonzero(new)
+
+
+class _Spellings:
+    """Numbers for values, the same where they are spelled alike: a tree of words of eight bytes."""
+
+    def __init__(self) -> None:
+        self.first, self.next, self.pairs = _Numbered(), _Numbered(), _Numbered()
+
+    @property
+    def size(self) -> int:
+        """No number is larger."""
+        return 2 * max(self.first.words.size, self.pairs.words.size)
+
+    def numbers(self, text: bytes, starts: Places, lengths: Places) -> Numbers:
+        """The number of each value, (rows,); the beginnings of longer ones have numbers too."""
+        found = 2 * self.first.numbers(_words(text, starts, lengths))
+        for done in range(WORD, int(lengths.max(initial=0)), WORD):
+            longer = np.flatnonzero(lengths > done)
+            word = self.next.numbers(_words(text, starts[longer] + done, lengths[longer] - done))
+            found[longer] = 2 * self.pairs.numbers((found[longer] << 32 | word).astype(np.uint64)) + 1
+        return found
+
+
+class _Numbered:
+    """Numbers for words, in the order of their coming."""
+
+    def __init__(self) -> None:
+        self.words: Words = np.array([NO_WORD], dtype=np.uint64)  # sorted
+        self.of_word = np.array([-1])
+
+    def numbers(self, words: Words) -> Numbers:
+        """The number of each word, (rows,)."""
+        place = np.searchsorted(self.words, words)
+        unknown = self.words[place] != words
+        if unknown.any():
+            new = np.unique(words[unknown])
+            at = np.searchsorted(self.words, new)
+            numbers = np.arange(new.size) + self.words.size - 1
+            self.words, self.of_word = np.insert(self.words, at, new), np.insert(self.of_word, at, numbers)
+            place = np.searchsorted(self.words, words)
+        return self.of_word[place]
