@@ -46,6 +46,8 @@ class Participants(Written):
     """How many, and who is left out."""
 
     planned: int = Field(ge=1, le=100_000)
+    stop: Literal["when complete", "by hand"] = "when complete"
+    """When nobody else may begin: as many as planned have completed, or the experimenter closes the study."""
     abandoned_after: Seconds = 3600.0  # without an answer; the place in the design is then given to the next
     exclude: Exclusions = Exclusions()
     recruitment: Recruitment = Recruitment()

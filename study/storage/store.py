@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from datetime import datetime, timedelta
 from typing import Literal, cast, get_args
 from uuid import UUID
 
-from sqlalchemy import Connection, Insert, bindparam, func, insert, or_, select, update
+from sqlalchemy import Connection, bindparam, func, insert, or_, select, update
 
 from study.orders import assign_slot
 from study.participants import Contact, Participant
@@ -21,7 +21,7 @@ from study.storage.archive import Archive, given_in, read_session, values_in
 from study.storage.database import Database
 from study.storage.migrations import bring_up_to_date
 from study.storage.tables import contacts, events, pages, participants, responses, sessions, withdrawals
-from study.storage.writer import Writer
+from study.storage.writer import Transaction, Writer
 
 Phase = Literal["open", "paused", "closed"]
 
@@ -72,12 +72,13 @@ class Store(Archive):
 
     def add_participant(self, participant: Participant, contact: Contact | None = None) -> None:
         """Write down somebody invited, and apart from that what may say who they are."""
-        self._writer.now(lambda db: _add_participant(db, participant, contact))
+        self._writer.now(lambda transaction: _add_participant(transaction.db, participant, contact))
 
     def recruit(self, participant: Participant, contact: Contact) -> None:
         """Write down somebody whom a recruitment service sent; if it sent them before, they are the same."""
 
-        def job(db: Connection) -> None:
+        def job(transaction: Transaction) -> None:
+            db = transaction.db
             known = select(contacts.c.participant).where(
                 contacts.c.source == contact.source, contacts.c.external_id == contact.external_id
             )
@@ -105,7 +106,8 @@ class Store(Archive):
         comes back to such a session keeps it all the same.
         """
 
-        def job(db: Connection) -> Session:
+        def job(transaction: Transaction) -> Session:
+            db = transaction.db
             if (known := read_session(db, participant.name)) is not None:
                 return known
             holders = (
@@ -138,13 +140,13 @@ class Store(Archive):
             if visit is not None and visit.session and not visit.session.completed_at:
                 self._visits[token_sha256] = visit
 
-        return self._writer.soon(lambda db: _read_visit(db, token_sha256), then=remember)
+        return self._writer.soon(lambda transaction: _read_visit(transaction.db, token_sha256), then=remember)
 
     def show_page(self, visit: Visit, step: str, *, now: datetime) -> None:
         """Note that a page is handed out for the first time. Nobody waits for this to be on disk."""
         visit.shown[step] = now
         row = {"participant": visit.participant.name, "step": step, "shown_at": now}
-        self._writer.soon(_adding(SHOW, row))
+        self._writer.soon(lambda transaction: transaction.add(SHOW, row))
 
     # Responses
 
@@ -154,15 +156,15 @@ class Store(Archive):
         """Store an answered page, if it is due. With STORE or KNOWN the answer is on disk."""
         name = visit.participant.name
 
-        def job(db: Connection) -> Verdict:
-            answered = {step: UUID(id_) for step, id_ in db.execute(ANSWERED, {"name": name})}
-            verdict = judge(submission.id, submission.step, pages=steps, answered=answered)
+        def job(transaction: Transaction) -> Verdict:
+            verdict = judge(submission.id, submission.step, pages=steps, answered=visit.answered)
             if verdict is Verdict.STORE:
                 content = submission.model_dump(mode="json")
                 row = {name: content[name] for name in ("id", "step", "on_page_ms", "answers", "views")}
-                db.execute(ANSWER, row | {"participant": name, "answered_at": now})
-                done = next_step(steps, {*answered, submission.step}) is None
-                db.execute(ACTIVE, {"name": name, "active_at": now, "completed_at": now if done else None})
+                transaction.add(ANSWER, row | {"participant": name, "answered_at": now})
+                done = next_step(steps, {*visit.answered, submission.step}) is None
+                active = {"name": name, "active_at": now, "completed_at": now if done else None}
+                transaction.add(ACTIVE, active)
             return verdict
 
         def update_visit(verdict: Verdict) -> None:
@@ -179,7 +181,7 @@ class Store(Archive):
     def log(self, name: str, detail: str, *, participant: str | None, now: datetime) -> Future[None]:
         """Write down something that happened, such as a video that failed."""
         row = {"participant": participant, "at": now, "name": name, "detail": detail}
-        return self._writer.soon(_adding(HAPPEN, row))
+        return self._writer.soon(lambda transaction: transaction.add(HAPPEN, row))
 
     # Whether the study runs
 
@@ -193,12 +195,36 @@ class Store(Archive):
         self.log(phase, "", participant=None, now=now).result()
         self._phase = phase
 
+    def close_when(self, completed: int, *, now: datetime) -> Future[bool]:
+        """Close the study once so many participants have completed it; opened again by hand it stays open."""
+
+        def job(db: Connection) -> bool:
+            if db.execute(select(events.c.number).where(events.c.detail == COMPLETE)).first():
+                return False
+            done = (
+                select(func.count())
+                .select_from(sessions)
+                .join(participants, participants.c.name == sessions.c.participant)
+                .where(participants.c.kind == "participant", sessions.c.completed_at.is_not(None))
+            )
+            if db.execute(done).scalar_one() < completed:
+                return False
+            db.execute(HAPPEN, {"participant": None, "at": now, "name": "closed", "detail": COMPLETE})
+            return True
+
+        def close(complete: bool) -> None:
+            if complete:
+                self._phase = "closed"
+
+        return self._writer.soon(job, then=close)
+
     # Withdrawal
 
     def withdraw(self, participant: str, *, now: datetime) -> None:
         """Delete everything about a participant but their name, from the disk too, and leave a dated note."""
 
-        def job(db: Connection) -> None:
+        def job(transaction: Transaction) -> None:
+            db = transaction.db
             count = select(func.count()).where(responses.c.participant == participant)
             deleted = db.execute(count).scalar_one()
             db.execute(  # and all that refers to it
@@ -210,23 +236,17 @@ class Store(Archive):
         self._database.purge()
 
 
+COMPLETE = "as many as planned have completed"  # beside "closed", where the protocol closed the study
+
 # What every page reads or writes, made once: making a statement takes longer than executing it.
 SHOW = insert(pages)
 ANSWER = insert(responses)
 HAPPEN = insert(events)
-ANSWERED = select(responses.c.step, responses.c.id).where(responses.c.participant == bindparam("name"))
 ACTIVE = (
     update(sessions)
     .where(sessions.c.participant == bindparam("name"))
     .values(active_at=bindparam("active_at"), completed_at=bindparam("completed_at"))
 )
-
-
-def _adding(statement: Insert, row: Mapping[str, object]) -> Callable[[Connection], None]:
-    def job(db: Connection) -> None:
-        db.execute(statement, row)
-
-    return job
 
 
 def _add_participant(db: Connection, participant: Participant, contact: Contact | None) -> None:

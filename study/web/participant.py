@@ -42,7 +42,7 @@ def steps_of(site: Site, session: Session, given: Mapping[str, Collection[str]] 
     conditional = [part for part in site.protocol.parts.values() if part.only_if]
     if conditional and given is None:
         given = site.store.given(session.participant)
-    left_out = {part.id for part in conditional if not part.due(given or {})}
+    left_out = frozenset(part.id for part in conditional if not part.due(given or {}))
     return steps(session.plan, demographics=bool(site.protocol.demographics), left_out=left_out)
 
 
@@ -167,8 +167,17 @@ async def answers(request: Request, submission: Submission) -> JSONResponse:
             return JSONResponse({"reason": fault}, 422)
         storing = site.store.add_response(visit, submission, steps=pages, now=now)
         verdict = await asyncio.wrap_future(storing)
+        if next_step(pages, {*visit.answered, submission.step}) is None:
+            await _close_when_complete(site, visit.participant, now)
     stored = verdict in {Verdict.STORE, Verdict.KNOWN}
     return JSONResponse({"reason": verdict.value}, 200 if stored else 409)
+
+
+async def _close_when_complete(site: Site, participant: Participant, now: datetime) -> None:
+    """Somebody has completed the study: if they are the last planned, nobody else may begin."""
+    rules = site.protocol.participants
+    if rules.stop == "when complete" and participant.kind == "participant":
+        await asyncio.wrap_future(site.store.close_when(rules.planned, now=now))
 
 
 @router.post("/study/events", name="events", status_code=204)
