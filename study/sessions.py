@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Collection, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from datetime import datetime
 from enum import Enum
 from functools import lru_cache
@@ -63,7 +63,8 @@ class Verdict(Enum):
 Pages = tuple[Step, ...]
 
 
-def steps(plan: Plan, *, demographics: bool = True, left_out: Collection[str] = ()) -> Pages:
+@lru_cache(maxsize=1024)
+def steps(plan: Plan, *, demographics: bool = True, left_out: frozenset[str] = frozenset()) -> Pages:
     """All pages between consent and debriefing, in order: demographics, instructions, practice, parts.
 
     `left_out` are the parts that earlier answers spare this participant.
@@ -97,7 +98,8 @@ def judge(submission_id: UUID, step: str, *, pages: Sequence[Step], answered: di
 
 def plan_json(plan: Plan) -> str:
     """The plan as canonical JSON: what is stored and hashed."""
-    return json.dumps(asdict(plan), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    fields = vars(plan) | {"trials": [vars(trial) for trial in plan.trials]}
+    return json.dumps(fields, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
 
 def plan_sha256(plan: Plan) -> str:

@@ -23,6 +23,9 @@ class Question(Written, ABC):
     text: Text
     optional: bool = False
 
+    def __hash__(self) -> int:
+        return id(self)  # the fields hold mappings; a question's HTML is made once and found by this
+
     @property
     @abstractmethod
     def items(self) -> Mapping[str, Text]:

@@ -88,7 +88,7 @@ class Store(Archive):
             else:
                 _add_participant(db, participant, contact)
 
-        self._writer.now(job, then=lambda _: self._visits.clear())
+        self._writer.now(job, then=lambda _: self.forget())
 
     # Sessions
 
@@ -133,6 +133,14 @@ class Store(Archive):
         """Whoever has the link of that token, if they are under way."""
         return self._visits.get(token_sha256)
 
+    def _latest(self, visit: Visit) -> Visit:
+        """What is remembered of somebody now: two who asked at once were told the same twice."""
+        return self._visits.get(visit.participant.token_sha256, visit)
+
+    def forget(self) -> None:
+        """Read everybody anew when they come again."""
+        self._visits.clear()
+
     def visit(self, token_sha256: str) -> Future[Visit | None]:
         """Whoever has the link of that token, read and from now on remembered."""
 
@@ -157,24 +165,26 @@ class Store(Archive):
         name = visit.participant.name
 
         def job(transaction: Transaction) -> Verdict:
-            verdict = judge(submission.id, submission.step, pages=steps, answered=visit.answered)
+            answered = self._latest(visit).answered
+            verdict = judge(submission.id, submission.step, pages=steps, answered=answered)
             if verdict is Verdict.STORE:
                 content = submission.model_dump(mode="json")
                 row = {name: content[name] for name in ("id", "step", "on_page_ms", "answers", "views")}
                 transaction.add(ANSWER, row | {"participant": name, "answered_at": now})
-                done = next_step(steps, {*visit.answered, submission.step}) is None
+                done = next_step(steps, {*answered, submission.step}) is None
                 active = {"name": name, "active_at": now, "completed_at": now if done else None}
                 transaction.add(ACTIVE, active)
             return verdict
 
         def update_visit(verdict: Verdict) -> None:
             if verdict is Verdict.STORE:
-                visit.answered[submission.step] = submission.id
-                visit.active_at = now
+                latest = self._latest(visit)
+                latest.answered[submission.step] = submission.id
+                latest.active_at = now
                 for item, values in given_in([(submission.step, submission.values)]).items():
-                    visit.given.setdefault(item, set()).update(values)
-            if verdict is not Verdict.STORE or next_step(steps, visit.answered) is None:
-                self._visits.pop(visit.participant.token_sha256, None)
+                    latest.given.setdefault(item, set()).update(values)
+                if next_step(steps, latest.answered) is None:
+                    self._visits.pop(visit.participant.token_sha256, None)
 
         return self._writer.soon(job, then=update_visit)
 
@@ -198,7 +208,8 @@ class Store(Archive):
     def close_when(self, completed: int, *, now: datetime) -> Future[bool]:
         """Close the study once so many participants have completed it; opened again by hand it stays open."""
 
-        def job(db: Connection) -> bool:
+        def job(transaction: Transaction) -> bool:
+            db = transaction.db
             if db.execute(select(events.c.number).where(events.c.detail == COMPLETE)).first():
                 return False
             done = (
@@ -232,7 +243,7 @@ class Store(Archive):
             )
             db.execute(insert(withdrawals), {"participant": participant, "at": now, "responses": deleted})
 
-        self._writer.now(job, then=lambda _: self._visits.clear())
+        self._writer.now(job, then=lambda _: self.forget())
         self._database.purge()
 
 

@@ -9,22 +9,50 @@ alone: nobody's answer is lost for a neighbour's fault.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from queue import SimpleQueue
 from typing import Any, Generic, TypeVar
 
-from sqlalchemy import Connection, Engine
+from sqlalchemy import Connection, Engine, Executable
 
+Row = Mapping[str, object]
 T = TypeVar("T")
+
+
+class Transaction:
+    """What several jobs write together."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+        self._rows: dict[Executable, list[Row]] = {}
+
+    @property
+    def db(self) -> Connection:
+        """The database, with all that was added so far."""
+        self.flush()
+        return self._connection
+
+    def add(self, statement: Executable, row: Row) -> None:
+        """Have a statement executed with that row, together with those that other jobs add."""
+        self._rows.setdefault(statement, []).append(row)
+
+    def flush(self) -> None:
+        """Execute what was added."""
+        for statement, rows in self._rows.items():
+            self._connection.execute(statement, rows)
+        self._rows = {}
+
+
+Job = Callable[[Transaction], T]  # may be run again, in another transaction
 
 
 @dataclass(frozen=True)
 class Task(Generic[T]):
     """Something to be written, and whoever waits for it."""
 
-    job: Callable[[Connection], T]  # may be run again, in another transaction
+    job: Job[T]
     then: Callable[[T], object]  # once it is on disk
     done: Future[T] = field(default_factory=Future)
 
@@ -43,7 +71,7 @@ class Writer:
         self._thread = threading.Thread(target=self._run, name="writer", daemon=True)
         self._thread.start()
 
-    def soon(self, job: Callable[[Connection], T], then: Callable[[T], object] = lambda _: None) -> Future[T]:
+    def soon(self, job: Job[T], then: Callable[[T], object] = lambda _: None) -> Future[T]:
         """Have a job done in a transaction; the future has its result once that is on disk."""
         task = Task(job, then)
         task.done.set_running_or_notify_cancel()  # who stops waiting does not undo what they sent
@@ -52,7 +80,7 @@ class Writer:
         self._waiting.put(task)
         return task.done
 
-    def now(self, job: Callable[[Connection], T], then: Callable[[T], object] = lambda _: None) -> T:
+    def now(self, job: Job[T], then: Callable[[T], object] = lambda _: None) -> T:
         """Have a job done, and wait for it."""
         return self.soon(job, then).result()
 
@@ -73,7 +101,9 @@ class Writer:
     def _write(self, tasks: list[Task[Any]]) -> None:
         try:
             with self._engine.begin() as db:
-                results = [task.job(db) for task in tasks]
+                transaction = Transaction(db)
+                results = [task.job(transaction) for task in tasks]
+                transaction.flush()
         except Exception as err:
             if len(tasks) == 1:
                 tasks[0].done.set_exception(err)

@@ -52,6 +52,7 @@ def asset(name: str) -> str:
     return f"/static/{static_version()}/{name}"
 
 
+@lru_cache(maxsize=2048)
 def ask(
     language: str,
     question: Question,

@@ -88,8 +88,9 @@ class Browser:
 
 @dataclass
 class Tally:
-    """What a crowd achieved."""
+    """What a crowd achieved, from the moment on when everybody was in."""
 
+    door: asyncio.Barrier
     latencies_s: list[float] = field(default_factory=list)  # of every acknowledged answer
     errors: int = 0
     elapsed_s: float = 0.0
@@ -117,10 +118,14 @@ class Tally:
 
 
 async def crowd(count: int, seconds: float, visit: Callable[[int, Tally], Awaitable[None]]) -> Tally:
-    """Let so many take part side by side, without thinking time, for so long or until all are done."""
-    tally = Tally()
-    start = time.perf_counter()
+    """Let so many take part side by side, without thinking time, for so long or until all are done.
+
+    A visit waits at `tally.door` once, before its first answer.
+    """
+    tally = Tally(asyncio.Barrier(count + 1))
     visits = [asyncio.create_task(visit(number, tally)) for number in range(count)]
+    await tally.door.wait()
+    start = time.perf_counter()
     _, running = await asyncio.wait(visits, timeout=seconds)
     tally.elapsed_s = time.perf_counter() - start
     for one in running:

@@ -99,6 +99,7 @@ async def take_part(address: str, code: str, tally: Tally) -> None:
     """Answer all pages as one participant."""
     browser = Browser(address)
     page = await browser.get(f"/InitializeParticipant/{code}")
+    await tally.door.wait()
     while 'name="rating"' in page.text:
         fields = dict(
             re.findall(r"<input type=.hidden. name=['\"](\w+)['\"] value=['\"]([^'\"]*)['\"]", page.text)

@@ -60,11 +60,13 @@ async def take_part(
     address: str, tally: Tally, acknowledged: Callable[[str], object] = lambda _: None
 ) -> None:
     """Take the study again and again, each time as somebody else, from somewhere else."""
-    while True:
+    for time in count():
         number = next(_people)
         browser = Browser(address, headers={"X-Forwarded-For": f"10.0.{number // 250 % 250}.{number % 250}"})
         await browser.post("/start", {})
         page = await browser.post("/consent", {"agreed": "yes", "language": "en"})
+        if time == 0:
+            await tally.door.wait()
         while found := PAGE.search(page.text):
             submission = _answered(json.loads(found[1]), page.text)
             sent = await tally.time(browser.post_json("/study/answers", json.dumps(submission).encode()))
