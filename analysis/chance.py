@@ -104,11 +104,12 @@ def best_item(target: Target) -> Scores:
 
 def double_difference(target: Target) -> Scores:
     """The rating minus what favourite items and intense stimuli explain: target − row − column + rest."""
-    others = np.delete(target.ratings, target.stimulus, axis=1)
-    row = np.delete(target.of_stimulus, target.item, axis=1).mean(axis=1)
-    column = others[:, :, target.item].mean(axis=1)
-    rest = np.delete(others, target.item, axis=2).mean(axis=(1, 2))
-    return Scores(target.on_target - row - column + rest, null=0.0)
+    here, everywhere = target.on_target, target.ratings.sum(axis=(1, 2))
+    same_stimulus = target.of_stimulus.sum(axis=1) - here
+    same_item = target.ratings[:, :, target.item].sum(axis=1) - here
+    rest = everywhere - same_stimulus - same_item - here
+    s, i = (n - 1 for n in target.ratings.shape[1:])  # other stimuli, other items
+    return Scores(here - same_stimulus / i - same_item / s + rest / (s * i), null=0.0)
 
 
 def fixed(level: float) -> Definition:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
@@ -40,7 +41,7 @@ class Answers:
     stimuli: tuple[str, ...]
     items: tuple[str, ...]
     options: tuple[str, ...]
-    codes: Codes  # (participants, stimuli, items) index of the option, −1 where there is no answer
+    codes: Codes  # (participants, stimuli, items) index of the option, −1: none; in memory item by item
     expected: str | None = None  # of an attention check: the answer asked for
     shown: int | None = None  # stimuli that one participant sees, where those are not all
     optional: bool = False  # whether one may finish without: by choice, or spared by earlier answers
@@ -55,7 +56,7 @@ class Answers:
             return None
         return min(numbers), max(numbers)
 
-    @property
+    @cached_property
     def ratings(self) -> FloatArray:
         """The answers as numbers, (participants, stimuli, items), NaN where there is none."""
         return np.array([*map(float, self.options), np.nan])[self.codes]
@@ -78,7 +79,7 @@ class Answers:
     def of_participants(self, kept: NDArray[np.bool_]) -> Answers:
         """The same question with fewer participants."""
         names = tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep)
-        return replace(self, participants=names, codes=self.codes[kept])
+        return replace(self, participants=names, codes=self.codes.T[..., kept].T)
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,8 @@ class Responses:
 
     def of_participants(self, kept: NDArray[np.bool_]) -> Responses:
         """The responses of some participants."""
+        if kept.all():
+            return self
         return replace(
             self,
             participants=tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep),
@@ -270,13 +273,13 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
 
 def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_]) -> Answers:
     """The question with the answers of its rows."""
-    shape = (len(question.participants), len(question.stimuli), len(question.items))
+    shape = (len(question.items), len(question.stimuli), len(question.participants))
     places = [
         rows.codes(column, {name: i for i, name in enumerate(names)})[mine]
         for column, names in (
-            ("participant", question.participants),
-            ("stimulus", question.stimuli),
             ("item", question.items),
+            ("stimulus", question.stimuli),
+            ("participant", question.participants),
         )
     ]
     options = {answer: _place(answer, question.options) for answer in rows.names("response")}
@@ -292,7 +295,7 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_]) -> Answers:
     _refuse_duplicates(rows, mine, cells, int(np.prod(shape)))
     codes = np.full(shape, MISSING, dtype=np.int8)
     codes.reshape(-1)[cells] = answers
-    return replace(question, codes=codes)
+    return replace(question, codes=codes.T)
 
 
 def _place(answer: str, options: Sequence[str]) -> int:
