@@ -66,7 +66,7 @@ def _balance(protocol: Protocol, part: Part, plans: Iterable[Plan]) -> Balance:
     left = Counter({f"{stimulus} in {pair}": 0 for pair, two in part.pairs.items() for stimulus in two})
     places = 0
     for plan in plans:
-        trials = [trial for trial in plan.trials if trial.part == part.id and not trial.practice]
+        trials = [trial for trial in plan.trials if trial.part == part.id and trial.stimulus in part.stimuli]
         shown = [trial.stimulus for trial in trials]
         blocks = [list(block) for _, block in groupby(shown, key=thing)]
         sequence = [thing(block[0]) for block in blocks]

@@ -19,6 +19,9 @@ from study.responses import Response
 from study.sessions import Step, steps
 from study.storage import Store
 
+ClipHashes = Mapping[str, Mapping[str, str]]
+"""The hashes of clips' files by stimulus id, by hash of the protocol they were rendered from."""
+
 SECRET = {"completion_code"}  # whoever knows it could withdraw the participant
 COLUMNS = {
     "participant": "Random name; says nothing about order or person.",
@@ -42,14 +45,15 @@ COLUMNS = {
 
 
 def rows(
-    store: Store, protocol: Protocol, *, kind: Kind = "participant", clips: dict[str, str] | None = None
+    store: Store, *, kind: Kind = "participant", clips: ClipHashes | None = None
 ) -> Iterator[dict[str, str]]:
     """Answered items in the order answered, participant by participant; practice is left out.
 
-    `clips` maps stimulus ids to the hashes of their files.
+    `clips` maps stimulus ids to the hashes of their files, for each protocol that participants began with.
     """
     for session, responses in store.responses(kind):
-        pages = steps(session.plan, demographics=bool(protocol.demographics))
+        pages = steps(session.plan)
+        files = (clips or {}).get(session.protocol_sha256, {})
         by_key = {page.key: page for page in pages}
         orders = {page.key: n for n, page in enumerate((p for p in pages if _counts(p)), start=1)}
         for response in responses:
@@ -70,21 +74,19 @@ def rows(
                     "shown_at": _moment(response.shown_at),
                     "answered_at": _moment(response.answered_at),
                     "seed": session.plan.seed,
-                    "stimulus_sha256": _hashes(step.trial, clips or {}),
+                    "stimulus_sha256": _hashes(step.trial, files),
                     "protocol_sha256": session.protocol_sha256,
                     "session": kind,
                     "left": step.trial.pair[0] if step.trial and step.trial.pair else "",
                 }
 
 
-def responses_csv(
-    store: Store, protocol: Protocol, *, kind: Kind = "participant", clips: dict[str, str] | None = None
-) -> str:
+def responses_csv(store: Store, *, kind: Kind = "participant", clips: ClipHashes | None = None) -> str:
     """The table as CSV (RFC 4180)."""
     file = io.StringIO(newline="")
     writer = csv.DictWriter(file, fieldnames=list(COLUMNS))
     writer.writeheader()
-    for row in rows(store, protocol, kind=kind, clips=clips):
+    for row in rows(store, kind=kind, clips=clips):
         writer.writerow(row | {"response": guarded(row["response"])})
     return file.getvalue()
 
@@ -152,13 +154,13 @@ def export_responses(
     out: Path,
     *,
     kind: Kind = "participant",
-    clips: dict[str, str] | None = None,
+    clips: ClipHashes | None = None,
 ) -> Path:
     """Write responses.csv and its codebook into a folder; gives the path of the table."""
     out.mkdir(parents=True, exist_ok=True)
     table = out / "responses.csv"
     with table.open("w", encoding="utf-8", newline="") as file:
-        file.write(responses_csv(store, protocol, kind=kind, clips=clips))
+        file.write(responses_csv(store, kind=kind, clips=clips))
     book = json.dumps(codebook(protocol, kind=kind), indent=2, ensure_ascii=False)
     (out / "responses.codebook.json").write_text(book + "\n", encoding="utf-8")
     return table

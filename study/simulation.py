@@ -89,7 +89,8 @@ def rehearse(
             for done, visit in enumerate(visits, start=1):
                 visit.result()
                 progress(done)
-        table = export_responses(store, protocol, out, kind="simulated", clips=hashes(clips or {}))
+        rendered = {protocol.sha256: hashes(clips or {})}
+        table = export_responses(store, protocol, out, kind="simulated", clips=rendered)
         store.close()
     return table
 

@@ -153,17 +153,22 @@ def export(
     from stimuli.manifest import Manifest
     from study.export import export_responses
     from study.storage import open_store
+    from study.versions import earlier_versions
     from study.web.site import clips_of, hashes
 
     protocol = load(path)
     folder = clips or protocol.folder / "stimuli"
-    file = (data or protocol.folder / "data") / "study.db"
+    kept = data or protocol.folder / "data"
+    file = kept / "study.db"
     if database is None and not file.exists():
         raise InputError(
             f"{file}: no answers yet. `study run {path}` opens the study; --data names another folder"
         )
     store = open_store(database or f"sqlite:///{file}")
-    table = export_responses(store, protocol, out, clips=hashes(clips_of(Manifest.load(folder), folder)))
+    manifests = {protocol.sha256: Manifest.load(folder)}
+    manifests |= {version.sha256: version.manifest for version in earlier_versions(protocol, kept)}
+    files = {sha256: hashes(clips_of(manifest, folder)) for sha256, manifest in manifests.items()}
+    table = export_responses(store, protocol, out, clips=files)
     store.close()
     console.print(f"{table} and its codebook are written.")
 

@@ -262,6 +262,14 @@ class Protocol(Written):
         }
         return completed(text, self.languages, folder=self.folder, values=values)
 
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files that the YAML names: gestures, and texts that are not written in it."""
+        texts = [text for _, text in self.written_texts if text]
+        texts += [part.intro for part in self.written_parts.values() if part.intro]
+        named = [text.root[language] for text in texts for language in files_named_in(text, self.folder)]
+        return (*(str(gesture.file) for gesture in self.gestures.values()), *named)
+
     @cached_property
     def sha256(self) -> str:
         """Hash of the study's content: what the YAML says, and the bytes of the files it names.
@@ -269,15 +277,11 @@ class Protocol(Written):
         The YAML counts as the values read, in the order written: comments and layout do not change the hash,
         nor do new fields of later versions of this software.
         """
-        paths = [str(gesture.file) for gesture in self.gestures.values()]
-        texts = [text for _, text in self.written_texts if text]
-        texts += [part.intro for part in self.written_parts.values() if part.intro]
-        paths += [text.root[language] for text in texts for language in files_named_in(text, self.folder)]
         files = {
             path: hashlib.sha256((self.folder / path).read_bytes()).hexdigest()
             if (self.folder / path).is_file()
             else None
-            for path in paths
+            for path in self.files
         }
         content = json.dumps([self.source.value, files], ensure_ascii=False, separators=(",", ":"))
         return hashlib.sha256(content.encode()).hexdigest()

@@ -30,11 +30,11 @@ def create_app(site: Site) -> FastAPI:
     app.state.site = site
     app.state.limits = Limits()
     app.state.is_stopping = lambda: False  # the server knows better
+    app.include_router(participant.router)  # first, as addresses are looked for in this order
     app.include_router(entry.router)
-    app.include_router(participant.router)
     app.include_router(experimenter.router)
     app.add_middleware(Guard)
-    clips = {clip.name: clip for clip in site.clips.values()}
+    clips = {clip.name: clip for one in (site, *site.earlier.values()) for clip in one.clips.values()}
     static = {file.name: file for file in STATIC.iterdir()}
 
     @app.get("/clips/{name}")
@@ -90,6 +90,7 @@ def create_app(site: Site) -> FastAPI:
     @app.exception_handler(IntegrityError)
     async def say_that_it_contradicts(_: Request, __: IntegrityError) -> Response:
         """Such as an answer under way from somebody who withdrew meanwhile."""
+        site.store.forget()
         return JSONResponse({"reason": "contradicts what is stored"}, 409)
 
     return app

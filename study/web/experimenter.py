@@ -28,7 +28,7 @@ from study.web.language import load_language
 from study.web.limits import count_wrong_guess, require_guesses_left
 from study.web.overview import TROUBLES, may_see_report, overview
 from study.web.pages import fragment, render
-from study.web.site import hashes, site_of
+from study.web.site import site_of
 from study.web.visitor import language_of, to
 
 COOKIE = "experimenter"
@@ -169,7 +169,7 @@ def download_responses(request: Request) -> Response:
     """All answers as a table."""
     require_login(request)
     site = site_of(request)
-    table = responses_csv(site.store, site.protocol, kind=site.kind, clips=hashes(site.clips))
+    table = responses_csv(site.store, kind=site.kind, clips=site.clip_hashes)
     return _download(table, "text/csv; charset=utf-8", "responses.csv")
 
 
@@ -214,7 +214,7 @@ def download_report(request: Request) -> Response:
         raise HTTPException(403)
     with tempfile.TemporaryDirectory() as scratch:
         table, out = Path(scratch) / "responses.csv", Path(scratch) / "report"
-        content = responses_csv(site.store, site.protocol, kind=site.kind, clips=hashes(site.clips))
+        content = responses_csv(site.store, kind=site.kind, clips=site.clip_hashes)
         table.write_text(content, encoding="utf-8", newline="")
         site.analyse(table, out)
         return _download((out / "report.html").read_bytes(), "text/html; charset=utf-8", "report.html")

@@ -111,7 +111,8 @@ def _done(person: Progress) -> bool:
 
 def _row(site: Site, person: Progress, failed_videos: int, now: datetime) -> Row:
     session = person.session
-    pages = steps_of(site, session) if session else ()
+    begun = session and site.as_begun(session)
+    pages = steps_of(begun, session) if session and begun else ()
     step = next_step(pages, person.answered)
     quiet = now - person.active_at if person.active_at else timedelta()
     state: State = "active"

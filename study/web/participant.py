@@ -76,7 +76,10 @@ async def study(request: Request) -> Response:
         language = language_of(request)
         page = render(request, "consent.html", language=language, kind=visit.participant.kind)
         return speaking(page, language)
-    pages = steps_of(site, session, visit.given)
+    begun = site.as_begun(session)
+    if begun is None:
+        return _changed(request, visit.participant, session.language)
+    pages = steps_of(begun, session, visit.given)
     step = next_step(pages, visit.answered)
     if step is None:
         return _the_end(request, visit.participant, session)
@@ -85,7 +88,7 @@ async def study(request: Request) -> Response:
         site.store.log("page_reopened", step.key, participant=visit.participant.name, now=now)
     else:
         site.store.show_page(visit, step.key, now=now)
-    return _page(request, visit.participant, session, step=step, pages=pages)
+    return _page(request, begun, visit.participant, session, step=step, pages=pages)
 
 
 def _the_end(request: Request, participant: Participant, session: Session) -> Response:
@@ -117,6 +120,21 @@ def _not_now(request: Request, participant: Participant, *, paused: bool) -> Res
         kind=participant.kind,
         heading=say("The study is paused") if paused else say("The study is closed"),
         message=message,
+    )
+
+
+def _changed(request: Request, participant: Participant, language: str) -> Response:
+    """They began with a version of the study that is not kept."""
+    say = load_language(language).text
+    return render(
+        request,
+        "message.html",
+        language=language,
+        kind=participant.kind,
+        heading=say("The study has changed"),
+        message=say(
+            "The study was changed after you began, so you cannot go on. Your answers are stored; thank you."
+        ),
     )
 
 
@@ -158,12 +176,15 @@ async def answers(request: Request, submission: Submission) -> JSONResponse:
     require(limits_of(request).sendings, visit.participant.name)
     values = submission.values
     given = {item: {answer, *visit.given.get(item, ())} for item, answer in values.items()}
-    pages = steps_of(site, visit.session, {**visit.given, **given})
+    begun = site.as_begun(visit.session)
+    if begun is None:
+        return JSONResponse({"reason": "the study has changed"}, 409)
+    pages = steps_of(begun, visit.session, {**visit.given, **given})
     verdict = judge(submission.id, submission.step, pages=pages, answered=visit.answered)
     if verdict is Verdict.STORE:
         due = next(page for page in pages if page.key == submission.step)
         now = site.clock()
-        if fault := _fault(site, visit, due, submission, now):
+        if fault := _fault(begun, visit, due, submission, now):
             return JSONResponse({"reason": fault}, 422)
         storing = site.store.add_response(visit, submission, steps=pages, now=now)
         verdict = await asyncio.wrap_future(storing)
@@ -226,9 +247,15 @@ def withdraw(
 
 
 def _page(
-    request: Request, participant: Participant, session: Session, *, step: Step, pages: tuple[Step, ...]
+    request: Request,
+    site: Site,
+    participant: Participant,
+    session: Session,
+    *,
+    step: Step,
+    pages: tuple[Step, ...],
 ) -> Response:
-    site, language = site_of(request), session.language
+    language = session.language
     say = load_language(language).text
     place = pages.index(step)
     part = site.protocol.parts[step.part] if step.part else None

@@ -20,6 +20,7 @@ from study.participants import Kind
 from study.protocol import amendments
 from study.storage import Store, open_store
 from study.storage.backups import BackupTimer, back_up
+from study.versions import earlier_versions, keep_version
 from study.web.app import create_app
 from study.web.credentials import open_credentials
 from study.web.site import Door, Site, clips_of, utc_now
@@ -71,7 +72,10 @@ def serve(
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
     amendments.check(protocol, store.protocol_hashes())
     clips = clips_of(manifest, clips_folder)
-    site = Site(protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse)
+    keep_version(protocol, manifest, data_folder)
+    site = Site(
+        protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse
+    ).with_earlier(earlier_versions(protocol, data_folder), clips_folder)
     app = create_app(site)
     server, listener = _server(app, host, port)
     address = f"http://{host}:{listener.getsockname()[1]}"

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -16,7 +16,9 @@ from study.participants import Kind
 if TYPE_CHECKING:
     from stimuli.manifest import Manifest
     from study.protocol import Protocol
+    from study.sessions import Session
     from study.storage import Store
+    from study.versions import Version
     from study.web.credentials import Credentials
 
 
@@ -71,6 +73,31 @@ class Site:
     door: Door = "open"
     analyse: Callable[[Path, Path], object] | None = None  # responses.csv and a folder → report.html in it
     clock: Callable[[], datetime] = field(default=utc_now)
+    earlier: Mapping[str, Site] = field(default_factory=dict)  # as it was before amendments, by protocol hash
+
+    def as_begun(self, session: Session) -> Site | None:
+        """The site as it was when the session began; None where that version is not kept."""
+        begun_with = session.protocol_sha256
+        return self if begun_with == self.protocol.sha256 else self.earlier.get(begun_with)
+
+    def with_earlier(self, versions: Iterable[Version], folder: Path) -> Site:
+        """The same, knowing its earlier versions, whose clips are in the folder too."""
+        return replace(
+            self,
+            earlier={
+                version.sha256: replace(
+                    self, protocol=version.protocol, clips=clips_of(version.manifest, folder)
+                )
+                for version in versions
+            },
+        )
+
+    @property
+    def clip_hashes(self) -> Mapping[str, Mapping[str, str]]:
+        """The hashes of the clips' files, by hash of the protocol."""
+        return {self.protocol.sha256: hashes(self.clips)} | {
+            sha256: hashes(site.clips) for sha256, site in self.earlier.items()
+        }
 
     def clips_on(self, trial: Trial) -> dict[str, Clip]:
         """The clips of a trial by role, in the order shown."""

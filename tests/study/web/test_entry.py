@@ -74,7 +74,7 @@ def test_no_export_says_who_anybody_is(online: Site) -> None:
                 "on_page_ms": 1,
             },
         )
-    for content in (responses_csv(online.store, online.protocol), responses_json(online.store)):
+    for content in (responses_csv(online.store), responses_json(online.store)):
         assert "34" in content
         assert "5f0c1d" not in content
         assert "prolific" not in content

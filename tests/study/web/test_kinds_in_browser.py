@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import csv
 import io
-import os
-import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Page, expect
 
 from study.export import responses_csv
 from study.protocol import Protocol, load_protocol
 from study.web.site import Site
 
-pytestmark = pytest.mark.xdist_group("browser")
-SIZES = {"wide": (1280, 800), "narrow": (390, 844)}
+pytestmark = [
+    pytest.mark.xdist_group("browser"),
+    pytest.mark.parametrize("page", ["wide", "narrow"], indirect=True),
+]
 
 ASKING = """
 study: asking
@@ -59,32 +58,6 @@ def protocol(tmp_path: Path) -> Protocol:
     return load_protocol(folder)
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"),
-            args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
-        )
-        yield chromium
-        chromium.close()
-
-
-@pytest.fixture(params=SIZES)
-def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
-    width, height = SIZES[request.param]
-    context = browser.new_context(locale="en-GB", viewport={"width": width, "height": height})
-    page = context.new_page()
-    faults: list[str] = []
-    page.on("pageerror", lambda error: faults.append(str(error)))
-    page.set_default_timeout(15_000)
-    yield page
-    if folder := os.environ.get("SCREENSHOTS"):
-        page.screenshot(path=f"{folder}/kinds-{request.param}.png", full_page=True)
-    context.close()
-    assert faults == []
-
-
 def proceed(page: Page) -> None:
     with page.expect_navigation():
         page.get_by_role("button", name="Continue", exact=True).click()
@@ -122,12 +95,10 @@ def test_sliders_ranks_and_checks_by_keyboard(page: Page, address: str, site: Si
     for row in page.get_by_role("radiogroup", name="Please rate").all():
         row.get_by_role("radio").nth(4).check()
     assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
-    if folder := os.environ.get("SCREENSHOTS"):
-        page.screenshot(path=f"{folder}/answered-{page.viewport_size['width']}.png", full_page=True)
     proceed(page)
     expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()
 
-    rows = csv.DictReader(io.StringIO(responses_csv(site.store, site.protocol)))
+    rows = csv.DictReader(io.StringIO(responses_csv(site.store)))
     given = {row["item"]: row["response"] for row in rows}
     assert given["hurried"] == "51" and given["calm"] == "50"
     assert (given["size"], given["smoothness"], given["speed"]) == ("1", "2", "3")

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import csv
 import io
-import os
-import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Page, expect
 
 from study.export import codebook, responses_csv
 from study.protocol import Protocol, load_protocol
 from study.web.site import Site
 
-pytestmark = pytest.mark.xdist_group("browser")
-SIZES = {"wide": (1280, 800), "narrow": (390, 844)}
+pytestmark = [
+    pytest.mark.xdist_group("browser"),
+    pytest.mark.parametrize("page", ["wide", "narrow"], indirect=True),
+]
 
 PAIRED = """
 study: paired
@@ -47,30 +46,6 @@ def protocol(tmp_path: Path) -> Protocol:
     folder.mkdir()
     (folder / "protocol.yaml").write_text(PAIRED, encoding="utf-8")
     return load_protocol(folder)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"),
-            args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
-        )
-        yield chromium
-        chromium.close()
-
-
-@pytest.fixture(params=SIZES)
-def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
-    width, height = SIZES[request.param]
-    context = browser.new_context(locale="en-GB", viewport={"width": width, "height": height})
-    page = context.new_page()
-    faults: list[str] = []
-    page.on("pageerror", lambda error: faults.append(str(error)))
-    page.set_default_timeout(15_000)
-    yield page
-    context.close()
-    assert faults == []
 
 
 def proceed(page: Page) -> None:
@@ -106,8 +81,6 @@ def test_both_are_seen_before_one_is_chosen_by_keyboard_and_the_link_leads_back(
         page.keyboard.press("Space")
         page.keyboard.press("ArrowRight")  # from A to B
         expect(page.get_by_label("Video B", exact=True)).to_be_checked()
-        if folder := os.environ.get("SCREENSHOTS"):
-            page.screenshot(path=f"{folder}/pair-{page.viewport_size['width']}.png", full_page=True)
         boxes = [figure.bounding_box() for figure in (first, second)]
         beside = boxes[0]["y"] == boxes[1]["y"]
         assert beside == (page.viewport_size["width"] > 700), "side by side, or one above the other"
@@ -126,7 +99,9 @@ def test_both_are_seen_before_one_is_chosen_by_keyboard_and_the_link_leads_back(
     row = next(
         row
         for row in csv.DictReader(
-            io.StringIO(responses_csv(site.store, site.protocol, clips={"calm": "c1", "lively": "c2"}))
+            io.StringIO(
+                responses_csv(site.store, clips={site.protocol.sha256: {"calm": "c1", "lively": "c2"}})
+            )
         )
         if row["part"] == "happier"
     )

@@ -1,0 +1,51 @@
+"""A study as it was when its participants began: a copy for each version, kept beside the answers.
+
+`DATA/versions/HASH/` holds the protocol, the files it names and the manifest of its clips. Whoever began
+before an amendment goes on with the version they consented to.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from stimuli.manifest import Manifest
+from study.protocol import Protocol, load_protocol
+
+FOLDER = "versions"
+
+
+@dataclass(frozen=True)
+class Version:
+    """One version of a study."""
+
+    sha256: str
+    protocol: Protocol
+    manifest: Manifest
+
+
+def keep_version(protocol: Protocol, manifest: Manifest, data: Path) -> None:
+    """Copy what participants are about to begin with, once."""
+    folder = data / FOLDER / protocol.sha256
+    if folder.exists():
+        return
+    unfinished = folder.with_name(f"{folder.name}.part")
+    shutil.rmtree(unfinished, ignore_errors=True)
+    unfinished.mkdir(parents=True)
+    for name in protocol.files:
+        within = not Path(name).is_absolute() and ".." not in Path(name).parts
+        if within and (protocol.folder / name).is_file():
+            (unfinished / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(protocol.folder / name, unfinished / name)
+    shutil.copyfile(protocol.path, unfinished / "protocol.yaml")
+    manifest.save(unfinished)
+    unfinished.rename(folder)
+
+
+def earlier_versions(protocol: Protocol, data: Path) -> Iterator[Version]:
+    """The versions before this one that are kept. Raises ProtocolError where one can no longer be read."""
+    for folder in sorted((data / FOLDER).glob("*/protocol.yaml")):
+        if folder.parent.name not in {protocol.sha256} and not folder.parent.name.endswith(".part"):
+            yield Version(folder.parent.name, load_protocol(folder), Manifest.load(folder.parent))

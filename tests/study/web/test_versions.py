@@ -1,0 +1,165 @@
+"""Whoever began before an amendment goes on with the study as it was; who comes later sees it as it is."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from uuid import uuid4
+
+import httpx
+import pytest
+
+from stimuli.manifest import Clip as Rendered
+from stimuli.manifest import Manifest
+from study.export import rows
+from study.protocol import load_protocol
+from study.simulation import PAGE
+from study.versions import FOLDER, earlier_versions, keep_version
+from study.web.app import create_app
+from study.web.overview import overview
+from study.web.participant import questions_of, steps_of
+from study.web.server import running
+from study.web.site import Clip, Site, clips_of
+
+
+def manifest(clips: dict[str, Clip], version: str) -> Manifest:
+    """Clips of no length, told apart by their version."""
+    return Manifest(
+        stimuli={
+            name: Rendered(
+                file=clip.path.name, file_sha256=f"{version}-{name}", spec={}, spec_sha256="", frames=0,
+                fps=30, duration_s=0, width=2, height=2, size_bytes=clip.size, software={}, gl_renderer="",
+            )
+            for name, clip in clips.items()
+        }
+    )  # fmt: skip
+
+
+@pytest.fixture
+def first(site: Site, tmp_path: Path) -> Site:
+    """The study before its amendment, kept."""
+    clips = manifest(site.clips, "first")
+    keep_version(site.protocol, clips, tmp_path / "data")
+    return replace(site, clips=clips_of(clips, tmp_path))
+
+
+@pytest.fixture
+def amended(first: Site, tmp_path: Path) -> Site:
+    """An item and a question more on each page, the demographics gone, a text changed."""
+    file = first.protocol.path
+    written = file.read_text(encoding="utf-8")
+    for before, more in (
+        ("            hurry: {en: Hurry, de: Eile}\n", "            pride: {en: Pride, de: Stolz}\n"),
+        ("[gar nicht, sehr stark]}\n", "      - text: {item: remark, text: {en: Remarks, de: Notizen}}\n"),
+    ):
+        written = written.replace(before, before + more)
+    change = (
+        f"amendments: [{{date: 2026-11-22, reason: More to rate, replaces: {first.protocol.sha256[:12]}}}]\n"
+    )
+    file.write_text(f"{written}demographics: []\n{change}", encoding="utf-8")
+    clips = manifest(first.clips, "amended")
+    protocol = load_protocol(file)
+    keep_version(protocol, clips, tmp_path / "data")
+    site = replace(first, protocol=protocol, clips=clips_of(clips, tmp_path))
+    return site.with_earlier(earlier_versions(protocol, tmp_path / "data"), tmp_path)
+
+
+class Visitor:
+    """A browser that answers every page as its version of the study asks it."""
+
+    def __init__(self) -> None:
+        self.cookies = httpx.Cookies()
+
+    def visit(self, site: Site, pages: int = 100, *, expected: Site | None = None) -> str:
+        """Take up to so many pages; gives the text of the one that is due then."""
+        with (
+            running(create_app(site)) as address,
+            httpx.Client(base_url=address, follow_redirects=True, cookies=self.cookies) as browser,
+        ):
+            seen = browser.get("/study").text
+            for _ in range(pages):
+                if 'name="agreed"' in seen:
+                    seen = browser.post("/consent", data={"agreed": "yes", "language": "en"}).text
+                found = PAGE.search(seen)
+                if not found:
+                    break
+                sent = browser.post(
+                    "/study/answers", json=self._answered(json.loads(found[1]), expected or site)
+                )
+                assert sent.status_code == 200, sent.text
+                seen = browser.get("/study").text
+            self.cookies = browser.cookies
+        return seen
+
+    @staticmethod
+    def _answered(page: dict[str, object], site: Site) -> dict[str, object]:
+        session = site.store.session(page["participant"])
+        step = next(step for step in steps_of(site, session) if step.key == page["step"])
+        answers = {}
+        for question in questions_of(site, step):
+            answers |= question.simulate(random.Random(1))
+        return {
+            "id": str(uuid4()), "step": page["step"], "on_page_ms": 1,
+            "answers": [{"item": item, "value": value} for item, value in answers.items()],
+            "views": [
+                {"role": clip["role"], "plays": 1, "played_s": 0, "duration_s": 0, "frames": 0, "dropped": 0}
+                for clip in page["clips"]
+            ],
+        }  # fmt: skip
+
+
+@pytest.fixture
+def begun(first: Site) -> Iterator[Visitor]:
+    """Somebody in the middle of the first part."""
+    visitor = Visitor()
+    with (
+        running(create_app(first)) as address,
+        httpx.Client(base_url=address, follow_redirects=True) as browser,
+    ):
+        browser.post("/start")
+        visitor.cookies = browser.cookies
+    assert "What does the robot express" in visitor.visit(first, pages=4)
+    yield visitor
+
+
+def test_the_copy_reads_as_the_study_did(first: Site, amended: Site, tmp_path: Path) -> None:
+    (earlier,) = earlier_versions(amended.protocol, tmp_path / "data")
+    assert earlier.sha256 == first.protocol.sha256 == earlier.protocol.sha256
+    assert {folder.name for folder in (tmp_path / "data" / FOLDER).iterdir()} == {
+        first.protocol.sha256,
+        amended.protocol.sha256,
+    }
+
+
+def test_whoever_began_before_finishes_the_study_they_began(
+    begun: Visitor, first: Site, amended: Site
+) -> None:
+    assert "You have reached the end" in begun.visit(amended, expected=first)
+    newcomer = Visitor()
+    with (
+        running(create_app(amended)) as address,
+        httpx.Client(base_url=address, follow_redirects=True) as browser,
+    ):
+        browser.post("/start")
+        newcomer.cookies = browser.cookies
+    assert "You have reached the end" in newcomer.visit(amended)
+
+    table = list(rows(amended.store, clips=amended.clip_hashes))
+    before, after = (
+        [row for row in table if row["protocol_sha256"] == site.protocol.sha256] for site in (first, amended)
+    )
+    assert {row["item"] for row in after} - {row["item"] for row in before} == {"pride", "remark"}
+    assert {row["part"] for row in before} - {row["part"] for row in after} == {"demographics"}
+    assert {row["stimulus_sha256"] for row in before if row["stimulus"] == "joy"} == {"first-joy"}
+    assert {row["stimulus_sha256"] for row in after if row["stimulus"] == "joy"} == {"amended-joy"}
+    assert [row.state for row in overview(amended).rows] == ["completed", "completed"]
+
+
+def test_where_no_copy_is_kept_they_are_told_and_nothing_is_lost(begun: Visitor, amended: Site) -> None:
+    without = replace(amended, earlier={})
+    assert "The study was changed after you began" in begun.visit(without)
+    assert len(list(rows(without.store))) > 0
+    assert overview(without).rows[0].state == "active"
