@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import av
 import numpy as np
 import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from study.protocol import Protocol, load_protocol
 from study.storage import open_store
@@ -129,3 +131,88 @@ def address(site: Site) -> Iterator[str]:
     """The study on a real server."""
     with running(create_app(site)) as url:
         yield url
+
+
+LOOKS = {
+    "wide": {"locale": "en-GB", "viewport": {"width": 1280, "height": 800}},
+    "narrow": {"locale": "en-GB", "viewport": {"width": 390, "height": 844}},
+    "narrow German": {"locale": "de-DE", "viewport": {"width": 390, "height": 844}},
+}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """Debian's Chromium."""
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"),
+            args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+        )
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
+    """A page in a browser that knows nothing yet: wide, unless a test asks for another of LOOKS."""
+    context = browser.new_context(**LOOKS[getattr(request, "param", "wide")])
+    page = context.new_page()
+    faults: list[str] = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.set_default_timeout(15_000)
+    yield page
+    context.close()
+    assert faults == []
+
+
+class Visit:
+    """An English-speaking participant at a browser."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        self.page = page
+        self.address = address
+
+    def begin(self) -> None:
+        """Come in and consent."""
+        self.page.goto(self.address)
+        self.page.get_by_role("button", name="Start").click()
+        self.consent()
+
+    def consent(self) -> None:
+        """Agree, and come to the first page."""
+        self.page.get_by_role("checkbox").check()
+        self.page.get_by_role("button", name="I agree, continue").click()
+        expect(self.page.locator("#continue")).to_be_enabled()
+
+    @property
+    def place(self) -> str:
+        """Page 3 of 9."""
+        return self.page.locator(".way label").inner_text()
+
+    def press_continue(self) -> None:
+        """Send the page, whatever comes of it."""
+        self.page.get_by_role("button", name="Continue", exact=True).click()
+
+    def proceed(self, pages: int = 1) -> None:
+        """Send the page and come to the next."""
+        for _ in range(pages):
+            before = self.place
+            self.press_continue()
+            expect(self.page.locator(".way label")).not_to_have_text(before)
+
+    def watch(self) -> None:
+        """Play all clips of the page."""
+        for figure in self.page.locator("figure.player").all():
+            figure.get_by_role("button", name="Play").click()
+            expect(figure.get_by_role("status")).to_have_text("Watched")
+
+    def rate(self, point: int) -> None:
+        """Give every item the same point."""
+        for row in self.page.get_by_role("radiogroup").all():
+            row.get_by_role("radio").nth(point - 1).check()
+
+
+@pytest.fixture
+def visit(page: Page, address: str) -> Visit:
+    """A participant who has yet to come in."""
+    return Visit(page, address)

@@ -1,0 +1,79 @@
+"""A poor network and impatient hands: every answer arrives, once."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from study.web.site import Site
+
+pytestmark = pytest.mark.xdist_group("browser")
+
+
+def stored(site: Site) -> list[dict[str, str]]:
+    """The answers of the one session, page by page."""
+    [(_, responses)] = site.store.responses("participant")
+    return [response.submission.values for response in responses]
+
+
+def test_answers_given_without_a_network_arrive_when_it_is_back(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    page.context.set_offline(True)
+    page.get_by_label("How old are you?").fill("34")
+    visit.press_continue()
+    expect(page.locator("#notice")).to_contain_text("There is no connection")
+    page.context.set_offline(False)
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    assert stored(site) == [{"age": "34", "gender": ""}]
+
+
+def test_a_server_that_fails_for_a_while_is_asked_again(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    failures = [503, 429]
+    page.context.route(
+        "**/study/answers",
+        lambda route: route.fulfill(status=failures.pop()) if failures else route.continue_(),
+    )
+    visit.press_continue()
+    expect(page.locator("#notice")).to_contain_text("There is no connection")
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    assert len(stored(site)) == 1
+
+
+def test_a_double_click_answers_once(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    page.get_by_role("button", name="Continue", exact=True).dblclick()
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    assert len(stored(site)) == 1
+
+
+def test_answers_survive_closing_the_browser_before_they_were_sent(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    page.context.route("**/study/answers", lambda route: route.abort())
+    page.get_by_label("How old are you?").fill("51")
+    visit.press_continue()
+    expect(page.locator("#notice")).to_contain_text("There is no connection")
+    page.close()
+    page.context.unroute("**/study/answers")
+    later = page.context.new_page()
+    later.goto(f"{visit.address}/study")
+    expect(later.get_by_role("heading", name="Before we start")).to_be_visible()
+    assert [values["age"] for values in stored(site)] == ["51"]
+
+
+def test_an_acknowledgement_that_got_lost_does_no_harm(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    lost = [True]
+
+    def lose_the_first(route) -> None:
+        if lost:
+            lost.clear()
+            route.fetch()
+            route.abort()
+        else:
+            route.continue_()
+
+    page.context.route("**/study/answers", lose_the_first)
+    visit.press_continue()
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    assert len(stored(site)) == 1

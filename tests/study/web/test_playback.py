@@ -1,0 +1,135 @@
+"""How clips are played, and what is written down of it, in a real browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+from playwright.sync_api import Page, Route, expect
+
+from study.protocol import load_protocol
+from study.responses import View
+from study.web.app import create_app
+from study.web.server import running
+from study.web.site import Site
+
+pytestmark = pytest.mark.xdist_group("browser")
+
+
+@pytest.fixture
+def address(site: Site) -> Iterator[str]:
+    """The study, with one replay of each clip."""
+    file = site.protocol.path
+    written = file.read_text("utf-8").replace("seed: 1", "seed: 1\nvideo: {replays: 1}")
+    file.write_text(written, encoding="utf-8")
+    with running(create_app(replace(site, protocol=load_protocol(file)))) as url:
+        yield url
+
+
+def come_to_the_practice(visit) -> None:
+    visit.begin()
+    visit.proceed(2)
+
+
+def view_sent(visit, site: Site) -> View:
+    """What was stored of the clip of the page, once it is answered."""
+    visit.rate(3)
+    visit.proceed()
+    [(_, responses)] = site.store.responses("participant")
+    [view] = responses[-1].submission.views
+    return view
+
+
+def test_every_play_is_on_record_and_replays_end_where_the_protocol_says(
+    visit, page: Page, site: Site
+) -> None:
+    come_to_the_practice(visit)
+    visit.watch()
+    page.get_by_role("button", name="Watch again").click()
+    expect(page.locator("figure [role=status]")).to_have_text("Watched as often as is possible here")
+    expect(page.locator("figure button")).to_be_hidden()
+    view = view_sent(visit, site)
+    assert (view.plays, view.starts, view.streamed) == (2, 2, False)
+    assert view.played_s == pytest.approx(0.6, abs=0.02)
+    assert view.duration_s == pytest.approx(0.6, abs=0.01)
+    assert 0.5 * 18 < view.frames <= 18 + 1, "requestVideoFrameCallback counted the frames shown"
+    names = [happening.name for happening in view.happenings]
+    assert names.count("playing") == names.count("ended") == 2
+    times = [happening.at_ms for happening in view.happenings]
+    assert times == sorted(times), "by a clock that only goes forward"
+
+
+def test_a_pause_a_jump_and_another_speed_are_on_record_and_gain_nothing(
+    visit, page: Page, site: Site
+) -> None:
+    come_to_the_practice(visit)
+    page.get_by_role("button", name="Play").click()
+    page.evaluate("document.querySelector('video').pause()")
+    page.evaluate("document.querySelector('video').currentTime = 0.59")
+    page.evaluate("document.querySelector('video').playbackRate = 8")
+    expect(page.get_by_role("radio").first).to_be_disabled()
+    page.get_by_role("button", name="Continue the video").click()
+    expect(page.locator("figure [role=status]")).to_have_text("Watched")
+    view = view_sent(visit, site)
+    assert view.played_s == pytest.approx(0.6, abs=0.02)
+    assert (view.plays, view.starts) == (1, 1)
+    names = {happening.name for happening in view.happenings}
+    assert {"pause", "seek refused", "rate 8", "rate 1", "ended"} <= names
+
+
+def test_neither_keys_nor_scripts_skip_the_clip(visit, page: Page) -> None:
+    come_to_the_practice(visit)
+    page.get_by_role("button", name="Play").click()
+    page.evaluate("document.querySelector('video').currentTime = 0.59")
+    page.keyboard.press("End")
+    expect(page.locator("figure [role=status]")).not_to_have_text("")
+    if page.locator("figure [role=status]").inner_text() == "Watched":
+        assert page.evaluate("document.querySelector('video').played.end(0)") == pytest.approx(0.6, abs=0.02)
+    else:
+        expect(page.get_by_role("radio").first).to_be_disabled()
+
+
+def test_a_clip_out_of_sight_waits(visit, page: Page, site: Site) -> None:
+    come_to_the_practice(visit)
+    page.get_by_role("button", name="Play").click()
+    page.evaluate(
+        """() => {  // headless browsers show every tab; this is what leaving one looks like from within
+            Object.defineProperty(document, "hidden", { value: true, configurable: true });
+            Object.defineProperty(document, "visibilityState", { value: "hidden", configurable: true });
+            document.dispatchEvent(new Event("visibilitychange"));
+            delete document.hidden;
+            delete document.visibilityState;
+        }"""
+    )
+    page.get_by_role("button", name="Continue the video").click()
+    expect(page.locator("figure [role=status]")).to_have_text("Watched")
+    view = view_sent(visit, site)
+    assert {"hidden", "pause"} <= {happening.name for happening in view.happenings}
+
+
+def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site: Site) -> None:
+    def only_streams(route: Route) -> None:
+        if route.request.resource_type == "media":
+            route.continue_()
+        else:
+            route.fulfill(status=503)
+
+    page.context.route("**/clips/*", only_streams)
+    come_to_the_practice(visit)
+    expect(page.get_by_role("button", name="Play")).to_be_enabled(timeout=20_000)
+    visit.watch()
+    assert view_sent(visit, site).streamed
+    assert sum(site.store.event_counts("video_retried").values()) == 4
+    assert site.store.event_counts("video_failed") == {}
+
+
+def test_a_video_that_fails_is_said_noted_and_can_be_tried_again(visit, page: Page, site: Site) -> None:
+    page.context.route("**/clips/*", lambda route: route.fulfill(status=503))
+    come_to_the_practice(visit)
+    expect(page.locator("#notice")).to_contain_text("could not be played", timeout=20_000)
+    page.context.unroute("**/clips/*")
+    page.get_by_role("button", name="Try again").click()
+    visit.watch()
+    assert "error" in {happening.name for happening in view_sent(visit, site).happenings}
+    assert sum(site.store.event_counts("video_failed").values()) >= 1
