@@ -5,7 +5,7 @@ Five million rows take some bytes per row and column, whatever the length of the
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,6 +39,10 @@ class Column:
         places = np.zeros(len(values), dtype=np.int64)
         places[occurring] = [place[values[code]] for code in occurring]
         return cls(distinct, places[codes])
+
+    def renamed(self, names: Mapping[str, str]) -> Column:
+        """The same with other names for some values."""
+        return Column.of([names.get(value, value) for value in self.values], self.codes)
 
     def at(self, row: int) -> str:
         """The value of one row."""

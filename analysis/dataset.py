@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analysis.fields import ResponsesError, read_header
-from analysis.rows import MISSING, OPTIONAL, REQUIRED, Rows, named_columns, read_rows
+from analysis.naming import MISSING, UNKNOWN, Naming, option_of
+from analysis.rows import OPTIONAL, REQUIRED, Rows, named_columns, read_rows
 from analysis.wide import answer_columns, read_wide, unknown_names
 from study.participants import Kind
 from study.protocol.parts import series_of
@@ -27,7 +28,6 @@ from study.questions.attention import Attention
 if TYPE_CHECKING:
     from study.protocol import Protocol
 
-UNKNOWN = -2  # an answer that is no option
 FloatArray = NDArray[np.float64]
 Codes = NDArray[np.int8]
 
@@ -136,7 +136,8 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     Anything else that the protocol does not know, and a second answer to the same item, is refused with its
     line. Raises ResponsesError.
     """
-    rows = _read(path, protocol, columns or {})
+    naming = Naming.of(protocol, columns or {})
+    rows = _read(path, protocol, naming)
     participants = tuple(sorted(name for name in rows.names("participant") if name))
     empty = [
         Answers(
@@ -158,7 +159,7 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     which = _question_of_each_row(rows, protocol, empty)
     nobody = rows.codes("participant", {"": 0}) == 0
     rows.refuse_if((which >= 0) & nobody, "has no participant")
-    filled = [_fill(question, rows, which == q) for q, question in enumerate(empty)]
+    filled = [_fill(question, rows, which == q, naming) for q, question in enumerate(empty)]
     with path.open("rb") as file:
         sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     return Responses(
@@ -173,25 +174,27 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     )
 
 
-def _read(path: Path, protocol: Protocol, said: Mapping[str, str]) -> Rows:
+def _read(path: Path, protocol: Protocol, naming: Naming) -> Rows:
     """The rows of a file, which has one answer or one participant per record."""
-    asked = {
-        stimulus: [item for question in part.questions if question.values for item in question.items]
+    asked = [
+        {
+            stimulus: [i for question in part.questions if question.values for i in question.items]
+            for stimulus in part.stimuli
+        }
         for part in protocol.parts.values()
-        for stimulus in part.stimuli
-    }
-    if unknown := unknown_names(said, asked):
+    ]
+    if unknown := unknown_names(naming.columns, asked):
         raise ResponsesError(
             f"--column {unknown[0]}=…: {unknown[0]!r} is neither one of {', '.join((*REQUIRED, *OPTIONAL))} "
             "nor STIMULUS.ITEM"
         )
     header = read_header(path)
-    named = named_columns(path, header, said)
+    named = named_columns(path, header, naming.columns)
     if {"stimulus", "item", "response"}.isdisjoint(named) and (
-        answers := answer_columns(header, said, asked)
+        answers := answer_columns(path, header, naming, asked)
     ):
-        return read_wide(path, named, answers)
-    return read_rows(path, named, header)
+        return read_wide(path, named, answers, header)
+    return read_rows(path, named, header, naming)
 
 
 def _kind(rows: Rows) -> Kind:
@@ -271,7 +274,7 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
     return which
 
 
-def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_]) -> Answers:
+def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_], naming: Naming) -> Answers:
     """The question with the answers of its rows."""
     shape = (len(question.items), len(question.stimuli), len(question.participants))
     places = [
@@ -282,13 +285,14 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_]) -> Answers:
             ("participant", question.participants),
         )
     ]
-    options = {answer: _place(answer, question.options) for answer in rows.names("response")}
-    answers = rows.codes("response", options, unknown=UNKNOWN)[mine]
+    options = naming.options(question)
+    written = {answer: option_of(answer, options) for answer in rows.names("response")}
+    answers = rows.codes("response", written, unknown=UNKNOWN)[mine]
     rows.refuse_if(
         _among(mine, answers == UNKNOWN),
         lambda row: (
             f"response {rows.value('response', row)!r} is not an answer to "
-            f"{rows.value('item', row)}; known: {', '.join(question.options)}, or empty for none"
+            f"{rows.value('item', row)}; known: {', '.join(filter(None, options))}, or empty for none"
         ),
     )
     cells = np.ravel_multi_index(tuple(places), shape)
@@ -296,19 +300,6 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_]) -> Answers:
     codes = np.full(shape, MISSING, dtype=np.int8)
     codes.reshape(-1)[cells] = answers
     return replace(question, codes=codes.T)
-
-
-def _place(answer: str, options: Sequence[str]) -> int:
-    """Which option an answer is; a number may be written 4, 4.0 or 4,0."""
-    if not answer:
-        return MISSING
-    if answer in options:
-        return options.index(answer)
-    try:
-        number = float(answer.replace(",", "."))
-        return [float(option) for option in options].index(number)
-    except ValueError:  # no number, or none of the options
-        return UNKNOWN
 
 
 def _refuse_duplicates(rows: Rows, mine: NDArray[np.bool_], cells: NDArray[np.int64], size: int) -> None:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from analysis.columns import Column, read_columns
 from analysis.fields import ResponsesError, delimiter
+from analysis.naming import MISSING, Naming
 
 REQUIRED = ("participant", "stimulus", "item", "response")
 OPTIONAL = ("part", "trial", "rt_ms", "session")
-MISSING = -1
 
 
 class Rows:
@@ -63,7 +63,7 @@ class Rows:
             raise ResponsesError(f"{self.path}:{self.line(row)}: {said}{more}")
 
 
-def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str]) -> Rows:
+def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str], naming: Naming) -> Rows:
     """Read columns as the texts written in the file; `columns` maps our names to those of the file."""
     missing = [name for name in REQUIRED if name not in columns]
     if missing:
@@ -73,7 +73,7 @@ def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str]) -> 
             "column per answer, named STIMULUS_ITEM"
         )
     found = read_columns(path, columns.values())
-    return Rows(path, {ours: found[theirs] for ours, theirs in columns.items()})
+    return Rows(path, {ours: naming.ours(ours, found[theirs]) for ours, theirs in columns.items()})
 
 
 def named_columns(path: Path, header: Sequence[str], said: Mapping[str, str]) -> dict[str, str]:

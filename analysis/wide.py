@@ -10,33 +10,48 @@ import numpy as np
 
 from analysis.columns import Column, read_columns
 from analysis.fields import ResponsesError
+from analysis.naming import Naming
 from analysis.rows import OPTIONAL, REQUIRED, Rows
 
 Asked = Mapping[str, Sequence[str]]  # stimulus → items
+STATUS, PREVIEW, TEST, SPAM = "Status", 1, 2, 8  # Qualtrics' column, and what its numbers are sums of
 IMPORT_ID = '{"ImportId"'  # in the third line of Qualtrics' tables
 
 
 def answer_columns(
-    header: Sequence[str], said: Mapping[str, str], asked: Asked
+    path: Path, header: Sequence[str], naming: Naming, parts: Sequence[Asked]
 ) -> dict[tuple[str, str], str]:
     """The column of each (stimulus, item): as said, else named STIMULUS_ITEM, STIMULUS[ITEM] or the like.
 
-    Where a stimulus is judged on one item only, STIMULUS alone will do.
+    Where a stimulus is judged on one item only, STIMULUS alone will do. A part may be elsewhere altogether,
+    but of one that is here no column may be missing, unless it is said to be "".
     """
     plain = {_plain(name): name for name in reversed(header)}
-    found = {}
-    for stimulus, items in asked.items():
-        for item in items:
-            spellings = [f"{stimulus}_{item}", *([stimulus] if len(items) == 1 else [])]
-            column = said.get(f"{stimulus}.{item}") or next(
-                (plain[_plain(name)] for name in spellings if _plain(name) in plain), None
+    found: dict[tuple[str, str], str] = {}
+    for asked in parts:
+        here, missing = {}, []
+        for stimulus, items in asked.items():
+            for item in items:
+                spellings = naming.spellings(stimulus, item, alone=len(items) == 1)
+                named = (plain[_plain(name)] for name in spellings if _plain(name) in plain)
+                column = naming.columns.get(f"{stimulus}.{item}", next(named, None))
+                if column is None:
+                    missing.append(f"{stimulus}.{item}")
+                elif column:
+                    here[stimulus, item] = column
+        if here and missing:
+            more = f" and {len(missing) - 3} more" if len(missing) > 3 else ""
+            raise ResponsesError(
+                f"{path}:1: has no column for {', '.join(missing[:3])}{more}; name it in the protocol, under "
+                f"analysis: responses: columns, or as in --column {missing[0]}=THEIRS; empty for none"
             )
-            if column is not None:
-                found[stimulus, item] = column
+        found |= here
     return found
 
 
-def read_wide(path: Path, columns: Mapping[str, str], answers: Mapping[tuple[str, str], str]) -> Rows:
+def read_wide(
+    path: Path, columns: Mapping[str, str], answers: Mapping[tuple[str, str], str], header: Sequence[str]
+) -> Rows:
     """Read such a table as rows of one answer each; `answers` as from `answer_columns`."""
     if "participant" not in columns:
         raise ResponsesError(
@@ -44,7 +59,8 @@ def read_wide(path: Path, columns: Mapping[str, str], answers: Mapping[tuple[str
             "--column participant=ResponseId"
         )
     carried = [name for name in ("participant", "session") if name in columns]
-    found = read_columns(path, {*(columns[name] for name in carried), *answers.values()})
+    status = {STATUS} & set(header)
+    found = read_columns(path, {*(columns[name] for name in carried), *answers.values(), *status})
     skipped = 2 if any(IMPORT_ID in one.at(1) for one in found.values() if one.codes.size > 1) else 0
     given = [found[theirs] for theirs in answers.values()]
     records, k = given[0].codes.size - skipped, len(given)
@@ -59,12 +75,34 @@ def read_wide(path: Path, columns: Mapping[str, str], answers: Mapping[tuple[str
         long[name] = Column.of([answer[place] for answer in answers], np.tile(np.arange(k), records))
     values = [value for one in given for value in one.values]
     long["response"] = Column.of(values, np.stack(placed, axis=1).ravel())
-    return Rows(path, long, per_record=k, skipped=skipped)
+    rows = Rows(path, long, per_record=k, skipped=skipped)
+    if skipped and status:
+        _refuse_tests(rows, found[STATUS])
+    return rows
 
 
-def unknown_names(said: Mapping[str, str], asked: Asked) -> list[str]:
+def _refuse_tests(rows: Rows, status: Column) -> None:
+    """Refuse Qualtrics' previews, tests and spam among the answers."""
+    bad = np.array([not _is_answer(value) for value in status.values])[status.codes[rows.skipped :]]
+    rows.refuse_if(
+        np.repeat(bad, rows.per_record),
+        lambda row: (
+            f"{STATUS} {status.at(rows.skipped + row // rows.per_record)!r} is no participant's answer; "
+            "leave out such rows"
+        ),
+    )
+
+
+def _is_answer(status: str) -> bool:
+    """Whether a status, in words or as Qualtrics' number, is that of a participant's answer."""
+    if status.isdecimal():
+        return not int(status) & (PREVIEW | TEST | SPAM)
+    return not re.search(r"preview|test|spam", status, re.IGNORECASE)
+
+
+def unknown_names(said: Mapping[str, str], parts: Sequence[Asked]) -> list[str]:
     """Names said to be a column that are neither a column of ours nor STIMULUS.ITEM."""
-    answers = {f"{stimulus}.{item}" for stimulus, items in asked.items() for item in items}
+    answers = {f"{stimulus}.{item}" for asked in parts for stimulus, items in asked.items() for item in items}
     return [name for name in said if name not in answers and name not in {*REQUIRED, *OPTIONAL}]
 
 

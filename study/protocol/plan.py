@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
+from study.protocol.recorded import Recorded
 from study.protocol.recruitment import Recruitment
 from study.written import Seconds, Written, nearest, wrong
 
@@ -86,6 +87,7 @@ class Analysis(Written):
     __pydantic_extra__: dict[HypothesisName, Hypothesis] = Field(init=False)
 
     alpha: Probability = 0.05
+    responses: Recorded = Recorded()
 
     @property
     def hypotheses(self) -> dict[str, Hypothesis]:

@@ -8,6 +8,7 @@ from study.protocol.contradiction import Contradiction, unknown
 from study.protocol.hypotheses import hypotheses
 from study.protocol.parts import BESIDE, NEUTRAL, PRACTICE
 from study.protocol.protocol import Protocol
+from study.protocol.recorded import recorded
 from study.protocol.texts import files_named_in
 from study.questions import Question
 from study.questions.prefer import Prefer
@@ -26,6 +27,7 @@ def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
         yield from _ids(protocol)
         yield from _pairs(protocol)
         yield from hypotheses(protocol)
+        yield from recorded(protocol)
 
 
 def _stimuli(protocol: Protocol) -> Iterator[Contradiction]:
