@@ -1,7 +1,6 @@
 """How emotions show in motion: which descriptors should move which way against neutral, and who found so.
 
-The findings are about human movement, but for Beck et al., who had people judge a robot's poses. What is not
-listed was not found, or not found clearly. Hurry is no emotion; it stands for Timing alone.
+What is not listed was not found, or not found clearly. Hurry is no emotion; it stands for Timing alone.
 """
 
 from __future__ import annotations
@@ -17,6 +16,8 @@ SOURCES = {
     "movement. J. Nonverbal Behav. 37, 91–105.",
     "Roether": "Roether, C. L., Omlor, L., Christensen, A. & Giese, M. A. (2009). Critical features for the "
     "perception of emotion from gait. J. Vision 9(6):15.",
+    "Halovic": "Halovic, S. & Kroos, C. (2018). Not all is noticed: Kinematic cues of emotion-specific gait. "
+    "Hum. Mov. Sci. 57, 478–488.",
     "Beck": "Beck, A., Cañamero, L. & Bard, K. A. (2010). Towards an affect space for robots to display "
     "emotional body language. IEEE RO-MAN, 464–469.",
     "Keltner": "Keltner, D. (1995). Signs of appeasement: evidence for the distinct displays of "
@@ -25,6 +26,13 @@ SOURCES = {
     "Lasseter": "Lasseter, J. (1987). Principles of traditional animation applied to 3D computer animation. "
     "SIGGRAPH Comput. Graph. 21(4), 35–44.",
 }
+
+EVIDENCE = (
+    "Wallbott coded actors' movements and postures; Crane & Gross, Roether et al. and Halovic & Kroos studied "
+    "gait; Beck et al. had people judge a robot's poses with its head up and down; Keltner and Darwin describe. "
+    "Where findings differ one is followed: Roether et al. saw arms bent in anger as in fear, Wallbott expansive "
+    "movement."
+)
 
 
 @dataclass(frozen=True)
@@ -39,16 +47,25 @@ class Finding:
 
 def _findings() -> Iterator[Finding]:
     for emotion, direction, descriptors, sources in (
-        ("joy", 1, ("speed_mean", "amplitude", "hand_height_m"), ("Wallbott", "Roether")),
+        ("joy", 1, ("speed_mean",), ("Wallbott", "Crane", "Roether")),
+        ("joy", 1, ("amplitude",), ("Wallbott", "Roether", "Halovic")),
+        ("joy", 1, ("hand_height_m",), ("Wallbott",)),
         ("joy", 1, ("gaze_elevation_mean_rad",), ("Wallbott", "Beck")),
-        ("sadness", -1, ("speed_mean", "jerk_rms", "amplitude"), ("Wallbott", "Crane", "Roether")),
+        ("sadness", -1, ("speed_mean",), ("Wallbott", "Crane", "Roether", "Halovic")),
+        ("sadness", -1, ("jerk_rms",), ("Crane",)),
+        ("sadness", -1, ("amplitude",), ("Wallbott", "Roether", "Halovic")),
         ("sadness", -1, ("gaze_elevation_mean_rad",), ("Roether", "Beck")),
         ("sadness", 1, ("contraction_index", "head_forward_mean_m"), ("Wallbott",)),
-        ("anger", 1, ("speed_mean", "acceleration_peak", "amplitude"), ("Wallbott", "Crane", "Roether")),
+        ("anger", 1, ("speed_mean",), ("Wallbott", "Crane", "Roether", "Halovic")),
+        ("anger", 1, ("acceleration_peak",), ("Wallbott", "Crane")),
+        ("anger", 1, ("amplitude",), ("Wallbott", "Roether", "Halovic")),
+        ("anger", -1, ("gaze_elevation_mean_rad",), ("Beck",)),
         ("anger", -1, ("contraction_index",), ("Wallbott",)),
         ("fear", 1, ("contraction_index",), ("Roether",)),
-        ("fear", -1, ("amplitude", "log_dimensionless_jerk"), ("Roether", "Darwin")),
-        ("shame", -1, ("speed_mean", "amplitude", "gaze_elevation_mean_rad"), ("Wallbott", "Keltner")),
+        ("fear", -1, ("amplitude",), ("Roether", "Halovic")),
+        ("fear", -1, ("log_dimensionless_jerk",), ("Darwin",)),
+        ("shame", -1, ("speed_mean", "amplitude"), ("Wallbott",)),
+        ("shame", -1, ("gaze_elevation_mean_rad",), ("Wallbott", "Keltner")),
         ("shame", 1, ("contraction_index",), ("Wallbott",)),
         ("hurry", -1, ("duration_s",), ("Lasseter",)),
         ("hurry", 1, ("speed_mean", "acceleration_peak"), ("Lasseter",)),
@@ -72,7 +89,7 @@ def emotions_as_markdown(described: Mapping[str, Mapping[str, float]]) -> str:
         "# Six expressions and what they are after",
         "",
         "Made from the motions themselves; a test holds every line. Descriptors of the explaining gesture of "
-        "`protocols/hielscher2025` without and with each modulation.",
+        f"`protocols/hielscher2025` without and with each modulation. {EVIDENCE}",
         "",
         "| expression | descriptor | expected | neutral | modulated | after |",
         "|---|---|---|---|---|---|",
