@@ -8,6 +8,8 @@ from math import erfc, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analysis.statistics.curvature import standard_error
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
@@ -55,11 +57,10 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     fit = minimize(model.negative, start, method="BFGS", options={"gtol": 1e-5})
     parameters = fit.x
     effect = float(parameters[levels - 1])
-    variance = np.linalg.pinv(hessian(model.negative, parameters))[levels - 1, levels - 1]
-    if not np.isfinite(variance) or variance <= 0 or abs(effect) > 20:
+    se = standard_error(model.negative, parameters, of=levels - 1, log_sd=levels)
+    if se is None or abs(effect) > 20:
         reason = "undefined: the conditions separate the ratings"
         return CumulativeLinkMixed(y.size, names.size, None, None, None, None, (), None, None, reason)
-    se = float(np.sqrt(variance))
     return CumulativeLinkMixed(
         n=y.size,
         participants=names.size,
@@ -120,18 +121,3 @@ def _logistic(x: FloatArray) -> FloatArray:
 
     y: FloatArray = expit(x)
     return y
-
-
-def hessian(function: object, at: FloatArray, step: float = 1e-4) -> FloatArray:
-    """Second derivatives by central differences."""
-    assert callable(function)
-    size = at.size
-    result = np.empty((size, size))
-    for i in range(size):
-        for j in range(i, size):
-            e, f = np.eye(size)[i] * step, np.eye(size)[j] * step
-            corners = (
-                function(at + e + f) - function(at + e - f) - function(at - e + f) + function(at - e - f)
-            )
-            result[i, j] = result[j, i] = corners / (4 * step**2)
-    return result

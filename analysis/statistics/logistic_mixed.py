@@ -8,6 +8,8 @@ from math import erfc, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analysis.statistics.curvature import standard_error
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 NODES = 25  # of the quadrature
@@ -60,10 +62,9 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
     model = _Model(y, covariate, group, count)
     fit = minimize(model.negative, np.array([0.0, 0.0, 0.0]), method="BFGS", options={"gtol": 1e-6})
     intercept, effect, log_sd = (float(value) for value in fit.x)
-    variance = float(np.linalg.pinv(_curvature(model.negative, fit.x))[1, 1])
-    if variance <= 0 or abs(effect) > 20 or log_sd > np.log(WIDEST):
+    se = standard_error(model.negative, fit.x, of=1, log_sd=2)
+    if se is None or abs(effect) > 20 or log_sd > np.log(WIDEST):
         return undefined("participants answer too consistently for a bounded effect")
-    se = sqrt(variance)
     return LogisticMixed(
         n=y.size,
         participants=count,
@@ -120,9 +121,3 @@ class _Model:
             if np.max(np.abs(pull / curvature)) < 1e-10:
                 break
         return u, np.asarray(curvature, dtype=float)
-
-
-def _curvature(function: object, at: FloatArray, step: float = 1e-4) -> FloatArray:
-    from analysis.statistics.cumulative_link_mixed import hessian
-
-    return hessian(function, at, step)

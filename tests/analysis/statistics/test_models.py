@@ -180,3 +180,15 @@ def test_label_permutation_counts_every_way_to_name_the_target(rows: list[tuple[
 def test_a_logistic_mixed_model_that_nobody_contradicts_is_unbounded() -> None:
     fit = logistic_mixed([1, 0, 1, 0, 1, 1, 0, 0], [1, 0] * 4, [1, 1, 2, 2, 3, 3, 4, 4])
     assert fit.reason == "undefined: whoever answers differently does so in one direction"
+
+
+def test_without_differences_among_participants_the_error_is_that_of_a_plain_logistic_model() -> None:
+    # 30 and 13 of 36 yes, as paired as chance would have it or less: the SD of participants is 0
+    high, low = np.repeat([1, 0], [30, 6]), np.resize([1, 0, 0], 36)
+    rows = np.concatenate([high, low]), np.repeat([1, 0], 36), np.tile(np.arange(36), 2)
+    fit = logistic_mixed(*rows)
+    assert fit.participant_sd is not None and fit.participant_sd < 0.05
+    yes = low.sum()
+    assert fit.se == pytest.approx(np.sqrt(1 / 30 + 1 / 6 + 1 / yes + 1 / (36 - yes)), rel=1e-3)
+    ordinal = cumulative_link_mixed(*rows)
+    assert (ordinal.effect, ordinal.se) == pytest.approx((fit.effect, fit.se), rel=1e-3)
