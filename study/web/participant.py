@@ -132,9 +132,7 @@ def _changed(request: Request, participant: Participant, language: str) -> Respo
         language=language,
         kind=participant.kind,
         heading=say("The study has changed"),
-        message=say(
-            "The study was changed after you began, so you cannot go on. Your answers are stored; thank you."
-        ),
+        message=say("It was changed after you began. Your answers so far are stored; thank you."),
     )
 
 

@@ -160,6 +160,6 @@ def test_whoever_began_before_finishes_the_study_they_began(
 
 def test_where_no_copy_is_kept_they_are_told_and_nothing_is_lost(begun: Visitor, amended: Site) -> None:
     without = replace(amended, earlier={})
-    assert "The study was changed after you began" in begun.visit(without)
+    assert "It was changed after you began" in begun.visit(without)
     assert len(list(rows(without.store))) > 0
     assert overview(without).rows[0].state == "active"
