@@ -1,4 +1,4 @@
-"""Which camera suits a set of motions: the same for all of them, so that framing never differs."""
+"""Which camera suits a robot's motions: the same for all of them, so that framing never differs."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from stimuli.outline import Outline, places
 from stimuli.robots.model import Robot
-from stimuli.scene import PRESETS, SHADOW, Outline, places, pose, studio
+from stimuli.scene import PRESETS, SHADOW, pose, studio
 from stimuli.trajectory import FloatArray, Trajectory
 
 MARGIN = 0.03  # of the picture's height that stays free
@@ -18,33 +19,23 @@ RATE_HZ = 15
 DIRECTIONS = np.array([d for d in itertools.product([-1, 0, 1], repeat=3) if any(d)])  # (26, 3)
 
 
-def closest_camera(motions: Sequence[tuple[Robot, Trajectory]], *, width: int, height: int) -> str:
+def closest_camera(robot: Robot, motions: Sequence[Trajectory], *, width: int, height: int) -> str:
     """The closest preset in which nothing that moves leaves the frame; the widest where all fail."""
+    model = studio(robot, width=width, height=height)
+    outline = _outermost(model)
     fitting = list(PRESETS)[:-1]
-    studios: dict[str, tuple[mujoco.MjModel, Outline]] = {}
-    for robot, trajectory in motions:
-        if robot.sha256 not in studios:
-            model = studio(robot, width=width, height=height)
-            moving = np.flatnonzero(model.body_weldid[model.geom_bodyid])
-            studios[robot.sha256] = (
-                model,
-                _outermost(Outline(model, moving[moving != model.geom(SHADOW).id])),
-            )
-        model, outline = studios[robot.sha256]
-        points = _swept(model, outline, robot, trajectory)
+    for motion in motions:
+        points = _swept(model, outline, robot, motion)
         fitting = [name for name in fitting if _inside(points, model, name, width / height)]
     return fitting[0] if fitting else list(PRESETS)[-1]
 
 
-def _outermost(outline: Outline) -> Outline:
-    """Of each part only the points furthest out in one of the directions; the margin holds the rest."""
-    kept = [
-        here[np.unique(np.argmax(outline.points[here] @ DIRECTIONS.T, axis=0))]
-        for here in (np.flatnonzero(outline.geoms == geom) for geom in np.unique(outline.geoms))
-    ]
-    chosen = np.concatenate(kept)
-    outline.points, outline.geoms = outline.points[chosen], outline.geoms[chosen]
-    return outline
+def _outermost(model: mujoco.MjModel) -> Outline:
+    """Of each part that can move only the points furthest out in a direction; the margin holds the rest."""
+    moving = model.body_weldid[model.geom_bodyid] > 0
+    moving[model.geom(SHADOW).id] = False
+    points = {geom: points for geom, points in Outline.of(model).points.items() if moving[geom]}
+    return Outline({g: p[np.unique(np.argmax(p @ DIRECTIONS.T, axis=0))] for g, p in points.items()})
 
 
 def _swept(model: mujoco.MjModel, outline: Outline, robot: Robot, trajectory: Trajectory) -> FloatArray:

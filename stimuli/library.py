@@ -91,29 +91,35 @@ def _filmed(
 
 
 def _framed(
-    specs: Sequence[StimulusSpec], robots: Mapping[str, Robot], known: Framing | None
-) -> tuple[Framing | None, list[StimulusSpec]]:
-    """The specs with `auto` replaced by the one camera that suits them all."""
-    open_ones = [spec for spec in specs if spec.video.camera == AUTO]
-    if not open_ones:
-        return None, list(specs)
-    key = hashlib.sha256("".join(sorted(spec.sha256 for spec in open_ones)).encode()).hexdigest()
-    if known is None or known.stimuli_sha256 != key:
-        known = Framing(stimuli_sha256=key, camera=_closest_camera(open_ones, robots))
-    chosen = {"camera": known.camera}
-    return known, [
-        spec.model_copy(update={"video": spec.video.model_copy(update=chosen)}) if spec in open_ones else spec
+    specs: Sequence[StimulusSpec], robots: Mapping[str, Robot], known: Mapping[str, Framing]
+) -> tuple[dict[str, Framing], list[StimulusSpec]]:
+    """The specs with `auto` replaced by the camera that suits all of the same robot."""
+    framing: dict[str, Framing] = {}
+    for name in dict.fromkeys(spec.robot for spec in specs if spec.video.camera == AUTO):
+        shown = [spec for spec in specs if spec.robot == name and spec.video.camera == AUTO]
+        key = hashlib.sha256("".join(sorted(spec.sha256 for spec in shown)).encode()).hexdigest()
+        framing[name] = (
+            known[name]
+            if name in known and known[name].stimuli_sha256 == key
+            else Framing(stimuli_sha256=key, camera=_closest_camera(shown, robots[name]))
+        )
+    return framing, [
+        spec.model_copy(
+            update={"video": spec.video.model_copy(update={"camera": framing[spec.robot].camera})}
+        )
+        if spec.video.camera == AUTO
+        else spec
         for spec in specs
     ]
 
 
-def _closest_camera(specs: Sequence[StimulusSpec], robots: Mapping[str, Robot]) -> str:
+def _closest_camera(specs: Sequence[StimulusSpec], robot: Robot) -> str:
     """The closest preset in which no motion leaves the frame."""
     from stimuli.framing import closest_camera
     from stimuli.motion import generate
 
-    motions = [(robots[spec.robot], generate(spec, robots[spec.robot]).trajectory) for spec in specs]
-    return closest_camera(motions, width=specs[0].video.width, height=specs[0].video.height)
+    motions = [generate(spec, robot).trajectory for spec in specs]
+    return closest_camera(robot, motions, width=specs[0].video.width, height=specs[0].video.height)
 
 
 def _is_whole(clip: Clip, folder: Path) -> bool:

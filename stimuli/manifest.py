@@ -40,7 +40,7 @@ class Clip(BaseModel):
 
 
 class Framing(BaseModel):
-    """The camera chosen for a set of stimuli that left it to us."""
+    """The camera chosen for those stimuli of a robot that left it to us."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -54,7 +54,7 @@ class Manifest(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     stimuli: Mapping[str, Clip] = Field(default_factory=dict)
-    framing: Framing | None = None
+    framing: Mapping[str, Framing] = Field(default_factory=dict)  # by robot
 
     @property
     def clips(self) -> Mapping[str, Clip]:

@@ -4,11 +4,12 @@ MuJoCo's own renderer, off screen, through EGL, or OSMesa where `MUJOCO_GL=osmes
 Only what moves is drawn again: the rectangle around every part that left its place in the clip's first frame
 is rendered through a part of the camera's frustum and pasted into that first frame. The pasted pixels are
 those of a full frame but for rounding on single edge samples. Where that cannot hold, because something casts
-shadows or reflects, every frame is drawn in full.
+shadows, reflects or has no outline, every frame is drawn in full.
 """
 
 from __future__ import annotations
 
+import ctypes
 import os
 from collections.abc import Mapping
 from importlib import import_module
@@ -20,8 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stimuli.errors import InputError
+from stimuli.outline import Outline, places
 from stimuli.robots.model import Robot
-from stimuli.scene import Outline, places, pose, studio
+from stimuli.scene import pose, studio
 from stimuli.trajectory import FloatArray
 
 Image = NDArray[np.uint8]
@@ -44,7 +46,7 @@ class Renderer:
         self.model = studio(robot, width=width, height=height)
         self.model.vis.quality.offsamples = SAMPLES
         self.data = mujoco.MjData(self.model)
-        self._outline = Outline(self.model)
+        self._outline = Outline.of(self.model)
         self._scene = mujoco.MjvScene(self.model, maxgeom=self.model.ngeom + 10)
         for flag in (
             mujoco.mjtRndFlag.mjRND_SHADOW,
@@ -58,7 +60,8 @@ class Renderer:
         self._view = mujoco.MjvCamera()
         self._view.type = mujoco.mjtCamera.mjCAMERA_FIXED
         self._option = mujoco.MjvOption()
-        self._crop = crop and not self.model.light_castshadow.any() and not self.model.mat_reflectance.any()
+        self._option.sitegroup[:] = False
+        self._crop = crop and _changes_where_it_is(self.model)
         self.look_through(camera)
 
     def look_through(self, camera: str) -> None:
@@ -87,8 +90,8 @@ class Renderer:
     def _cropped(self, image: Image, before: FloatArray) -> Image:
         """The first frame with what moved drawn anew, where it was and where it is."""
         now = places(self.data)
-        moved = np.abs(now - before).max(axis=1) > STILL
-        if not moved.any():
+        moved = np.flatnonzero(np.abs(now - before).max(axis=1) > STILL).tolist()
+        if not moved:
             return image
         x, y = self.project(np.vstack([self._outline.placed(where, moved) for where in (before, now)])).T
         left, bottom = max(0, int(x.min()) - BORDER), max(0, int(y.min()) - BORDER)
@@ -135,6 +138,13 @@ class Renderer:
         self.close()
 
 
+def _changes_where_it_is(model: mujoco.MjModel) -> bool:
+    """Whether whatever moves changes the picture within its outline alone."""
+    elsewhere = model.light_castshadow.any() or model.mat_reflectance.any()
+    without_outline = model.nskin or model.nflex or model.ntendon
+    return not (elsewhere or without_outline)
+
+
 def open_context(width: int, height: int) -> Any:
     """An OpenGL context without a screen, made current: EGL, else OSMesa."""
     wanted = os.environ.get("MUJOCO_GL", "")
@@ -157,5 +167,6 @@ def open_context(width: int, height: int) -> Any:
 
 def gl_renderer() -> str:
     """What draws: the graphics card's name, or llvmpipe where the processor does it."""
-    name: bytes | None = import_module("OpenGL.GL").glGetString(0x1F01)  # GL_RENDERER
-    return name.decode() if name else "unknown"
+    opengl = import_module("OpenGL.raw.GL.VERSION.GL_1_0")  # OpenGL.GL would bring all versions' functions
+    name = opengl.glGetString(0x1F01)  # GL_RENDERER
+    return ctypes.string_at(name).decode() if name else "unknown"

@@ -6,16 +6,14 @@ frame without a GPU. The robot's contact shadow is painted on the floor under it
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 
+from stimuli.outline import placed, places, vertices
 from stimuli.robots.model import Robot, View
 from stimuli.robots.shapes import lathe
 from stimuli.robots.skeleton import dress
@@ -47,10 +45,9 @@ def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
     """The robot in the studio, with a camera for each preset that suits the picture's shape."""
     spec = robot.build()
     bare = spec.compile()
-    height_m = extent(bare, robot)[1][2]
+    foot, (_, height_m) = find_foot(bare, robot), extent(bare, robot)
     add_light(spec)
     add_cove(spec)
-    foot = find_foot(bare, robot)
     add_contact_shadow(spec, foot)
     near = foot.radius * (np.sin(np.radians(robot.view.elevation_deg)) + FORESHORTENING) / height_m
     for name, (lower, top) in PRESETS.items():
@@ -72,12 +69,10 @@ def pose(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot, positions: Ma
     mujoco.mj_camlight(model, data)
 
 
-def extent(model: mujoco.MjModel, robot: Robot) -> tuple[FloatArray, FloatArray]:
-    """Lowest and highest corner of the robot at home, in metres."""
-    data = mujoco.MjData(model)
-    pose(model, data, robot, robot.home)
-    points = Outline(model).placed(places(data))
-    return points.min(axis=0), points.max(axis=0)
+def extent(model: mujoco.MjModel, robot: Robot) -> tuple[float, float]:
+    """Height of the robot's lowest and of its highest point at home, in metres."""
+    heights = np.concatenate([part[:, 2] for part in at_home(model, robot)[1]])
+    return float(heights.min()), float(heights.max())
 
 
 @dataclass(frozen=True)
@@ -91,12 +86,11 @@ class Foot:
 
 def find_foot(model: mujoco.MjModel, robot: Robot) -> Foot:
     """The link with the lowest point at home, and the footprint of its lowest 10 cm."""
-    data = mujoco.MjData(model)
-    pose(model, data, robot, robot.home)
-    outline = Outline(model)
-    points = outline.placed(places(data))
-    body = model.geom_bodyid[outline.geoms[points[:, 2].argmin()]]
-    footprint = points[(model.geom_bodyid[outline.geoms] == body) & (points[:, 2] < 0.10)][:, :2]
+    data, parts = at_home(model, robot)
+    lowest = min(range(model.ngeom), key=lambda geom: float(parts[geom][:, 2].min()))
+    body = model.geom_bodyid[lowest]
+    points = np.vstack([part for part, of in zip(parts, model.geom_bodyid, strict=True) if of == body])
+    footprint = points[points[:, 2] < 0.10][:, :2]
     middle = np.append((footprint.min(axis=0) + footprint.max(axis=0)) / 2, 0.0)
     turn = data.xmat[body].reshape(3, 3)
     return Foot(
@@ -104,41 +98,12 @@ def find_foot(model: mujoco.MjModel, robot: Robot) -> Foot:
     )
 
 
-def places(data: mujoco.MjData) -> FloatArray:
-    """Where every geom is, shape (geoms, 12): rotation matrix by rows, and position."""
-    return np.hstack([data.geom_xmat, data.geom_xpos])
-
-
-class Outline:
-    """Points whose hull holds each visible part: the hull of its mesh, or the corners of its bounding box."""
-
-    def __init__(self, model: mujoco.MjModel, geoms: Iterable[int] | None = None) -> None:
-        chosen = list(range(model.ngeom) if geoms is None else geoms)
-        points = [_hull(model, geom) for geom in chosen]
-        self.points = np.vstack(points)  # (n, 3) m, in the frame of the geom
-        self.geoms = np.repeat(chosen, [len(some) for some in points])  # (n,) the geom each belongs to
-
-    def placed(self, places: FloatArray, geoms: NDArray[np.bool_] | None = None) -> FloatArray:
-        """The points (m, 3) in the world, of all geoms or of those marked true."""
-        chosen = slice(None) if geoms is None else geoms[self.geoms]
-        where = places[self.geoms[chosen]]
-        turned: FloatArray = np.einsum("nij,nj->ni", where[:, :9].reshape(-1, 3, 3), self.points[chosen])
-        moved: FloatArray = turned + where[:, 9:]
-        return moved
-
-
-def _hull(model: mujoco.MjModel, geom: int) -> FloatArray:
-    if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_MESH:
-        centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
-        corners: FloatArray = centre + half * np.array(list(itertools.product([-1, 1], repeat=3)))
-        return corners
-    mesh = model.geom_dataid[geom]
-    vertices: FloatArray = model.mesh_vert[model.mesh_vertadr[mesh] :][: model.mesh_vertnum[mesh]]
-    try:
-        hull: FloatArray = vertices[ConvexHull(vertices).vertices]
-        return hull
-    except QhullError:  # flat
-        return vertices
+def at_home(model: mujoco.MjModel, robot: Robot) -> tuple[mujoco.MjData, list[FloatArray]]:
+    """The robot's state at home, and the points (n, 3) of each of its geoms in the world."""
+    data = mujoco.MjData(model)
+    pose(model, data, robot, robot.home)
+    where = places(data)
+    return data, [placed(vertices(model, geom), where[geom]) for geom in range(model.ngeom)]
 
 
 def add_light(spec: mujoco.MjSpec) -> None:

@@ -33,7 +33,7 @@ def frame_positions(trajectory: Trajectory, video: Video) -> FloatArray:
 def write_video(path: Path, frames: Iterable[NDArray[np.uint8]], *, fps: int) -> int:
     """Write frames (height, width, 3) RGB at a constant rate and return how many there were.
 
-    The file appears under its name only when it is whole. One encoder thread, so that the bytes do not
+    A frame held is the same array again.     The file appears under its name only when it is whole. One encoder thread, so that the bytes do not
     depend on the number of cores; a keyframe each second, so that a participant can go back; the index
     first, so that playing starts before all is loaded.
     """
@@ -52,17 +52,27 @@ def _encode(path: Path, frames: Iterable[NDArray[np.uint8]], fps: int) -> int:
         coder.time_base = Fraction(1, fps)
         coder.colorspace = coder.color_primaries = coder.color_trc = BT709
         coder.color_range = LIMITED
+        last: tuple[NDArray[np.uint8], av.VideoFrame] | None = None
         for count, image in enumerate(frames, start=1):
+            if last is None or image is not last[0]:  # else it is held, and converted already
+                last = image, _picture(image)
+            picture = last[1]
             if count == 1:
                 stream.height, stream.width = image.shape[:2]
-            picture = av.VideoFrame.from_ndarray(np.ascontiguousarray(image), format="rgb24")
-            picture = picture.reformat(format="yuv420p", dst_colorspace="ITU709", dst_color_range="MPEG")
             picture.pts, picture.time_base = count - 1, coder.time_base
-            picture.colorspace = picture.color_primaries = picture.color_trc = BT709
-            picture.color_range = LIMITED
             file.mux(stream.encode(picture))
         file.mux(stream.encode())
     return count
+
+
+def _picture(image: NDArray[np.uint8]) -> av.VideoFrame:
+    """An RGB image as the encoder takes it."""
+    picture = av.VideoFrame.from_ndarray(np.ascontiguousarray(image), format="rgb24").reformat(
+        format="yuv420p", dst_colorspace="ITU709", dst_color_range="MPEG", threads=1
+    )
+    picture.colorspace = picture.color_primaries = picture.color_trc = BT709
+    picture.color_range = LIMITED
+    return picture
 
 
 def read_frames(path: Path) -> list[NDArray[np.uint8]]:

@@ -19,8 +19,11 @@ from stimuli.robots.model import Joint, JointKind, Robot, Vector
 if TYPE_CHECKING:
     import mujoco
 
-LOOK = ("robots/shapes.py", "robots/skeleton.py", "scene.py", "rendering.py", "video.py")
-"""What every robot's pictures depend on, beside its own two files."""
+LOOK = (
+    *(f"robots/{name}.py" for name in ("facts", "model", "shapes", "skeleton")),
+    *("outline.py", "scene.py", "rendering.py", "video.py"),
+)
+"""The code every robot's pictures depend on, beside its own."""
 
 
 class JointFacts(BaseModel):

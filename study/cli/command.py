@@ -90,7 +90,8 @@ def rendered(protocol: Protocol, folder: Path, workers: int | None, scheduler: s
 def progress(what: str, total: int | None) -> Iterator[Any]:
     """A progress bar for as long as the block lasts; gives the function that says how far it is."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as shown:
+    screen = Console(stderr=True)
+    with Progress(*columns, console=screen, transient=True, disable=not screen.is_terminal) as shown:
         task = shown.add_task(what, total=total)
         yield lambda done, of=None: shown.update(task, completed=done, total=of or total)
 

@@ -43,7 +43,9 @@ def render(
     if as_json:
         print_json(manifest.model_dump(mode="json"))
     else:
-        console.print(f"{len(manifest.clips)} clips in {folder}")
+        stimuli, files = len(manifest.clips), len({clip.file for clip in manifest.clips.values()})
+        shared = "" if stimuli == files else f" of {stimuli} stimuli; those that look the same share one"
+        console.print(f"{folder}: {files} clips{shared}.")
 
 
 @app.command()

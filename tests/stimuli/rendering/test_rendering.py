@@ -106,9 +106,9 @@ def test_the_closest_camera_is_the_one_nothing_leaves(pepper: Robot) -> None:
     nod, wave = motion(pepper, {"HeadPitch": 0.3}), motion(pepper, RAISED)
     bow = motion(pepper, {"KneePitch": 0.4, "HipPitch": -0.5})
     size = {"width": WIDTH, "height": HEIGHT}
-    assert closest_camera([(pepper, nod)], **size) == "head"
-    assert closest_camera([(pepper, nod), (pepper, wave)], **size) == "upper_body"
-    assert closest_camera([(pepper, wave), (pepper, bow)], **size) == "full_body"
+    assert closest_camera(pepper, [nod], **size) == "head"
+    assert closest_camera(pepper, [nod, wave], **size) == "upper_body"
+    assert closest_camera(pepper, [wave, bow], **size) == "full_body"
 
 
 def test_presets_go_from_close_to_far() -> None:
