@@ -33,9 +33,9 @@ def frame_positions(trajectory: Trajectory, video: Video) -> FloatArray:
 def write_video(path: Path, frames: Iterable[NDArray[np.uint8]], *, fps: int) -> int:
     """Write frames (height, width, 3) RGB at a constant rate and return how many there were.
 
-    A frame held is the same array again.     The file appears under its name only when it is whole. One encoder thread, so that the bytes do not
-    depend on the number of cores; a keyframe each second, so that a participant can go back; the index
-    first, so that playing starts before all is loaded.
+    The same array again is a frame held. The file appears under its name only when it is whole. One encoder
+    thread, so that the bytes do not depend on the number of cores; a keyframe each second, so that a
+    participant can go back; the index first, so that playing starts before all is loaded.
     """
     with whole_or_nothing(path) as partial:
         return _encode(partial, frames, fps)
