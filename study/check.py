@@ -17,6 +17,7 @@ from study.balance import balance
 from study.orders import cycle, draw_plan
 from study.power import power
 from study.protocol import Problem, Protocol
+from study.questions.scale import Scale
 from study.specs import specs
 from study.text import Text
 from study.written import Location
@@ -127,6 +128,11 @@ def _texts(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("wrong", "texts", "\n".join(map(str, problems)))
     else:
         yield Finding("good", "texts", f"complete in {' and '.join(protocol.languages)}")
+    for question in (question for part in protocol.parts.values() for question in part.questions):
+        if isinstance(question, Scale):
+            for language in sorted(set(question.unpublished) & set(protocol.languages)):
+                unpublished = "is our own translation, unpublished and not validated"
+                yield Finding("mind", "texts", f"{question.set} in {language} {unpublished}")
 
 
 def _lacking(protocol: Protocol, location: Location, languages: tuple[str, ...]) -> Problem:

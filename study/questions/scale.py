@@ -8,19 +8,16 @@ from __future__ import annotations
 
 import random
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
-from functools import cache, cached_property
-from pathlib import Path
+from collections.abc import Mapping
+from functools import cached_property
 from typing import Any, ClassVar, Literal
 
-import yaml
 from pydantic import Field, model_validator
 
 from study.questions.question import Question
+from study.questions.sets import question_sets
 from study.text import Ends, NamedTexts, Text
 from study.written import nearest, wrong_at
-
-_SETS = Path(__file__).parent.parent / "defaults" / "sets"
 
 
 class Scale(Question):
@@ -38,11 +35,16 @@ class Scale(Question):
         name = value.get("set") if isinstance(value, Mapping) else None
         if name is None:
             return value
-        sets = {name: body for kind, name, body in question_sets() if kind == cls.kind}
+        sets = {known: one for known, one in question_sets().items() if one.kind == cls.kind}
         if name not in sets:
             raise wrong_at(("set",), f"is no set of questions here; {nearest(name, sets)}", name)
-        body = sets[name]
-        return {key: body[key] for key in body if key != "items"} | {cls.items_field: body["items"]} | value
+        chosen = sets[name]
+        return {**chosen.fields, cls.items_field: chosen.items, "series": chosen.series, **value}
+
+    @property
+    def unpublished(self) -> tuple[str, ...]:
+        """The languages in which its set is our own translation, not a published one."""
+        return question_sets()[self.set].unpublished if self.set else ()
 
     @property
     @abstractmethod
@@ -106,24 +108,3 @@ class Rating(Scale):
     def labels(self) -> Mapping[int, Text]:
         """Only the ends bear a label."""
         return dict(zip(self.scale, self.ends, strict=True))
-
-
-@cache
-def question_sets() -> tuple[tuple[str, str, dict[str, Any]], ...]:
-    """The ready sets as (kind, name, body): each questionnaire whole, and each of its series alone."""
-    return tuple(found for file in sorted(_SETS.glob("*.yaml")) for found in _sets_in(file))
-
-
-def _sets_in(file: Path) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    body: dict[str, Any] = yaml.safe_load(file.read_text(encoding="utf-8"))
-    kind, series = body.pop("kind"), body.pop("series")
-    yield kind, file.stem, _of_series(body, series)
-    for name, items in series.items():
-        yield kind, f"{file.stem} {name}", _of_series(body, {name: items})
-
-
-def _of_series(body: dict[str, Any], series: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    return body | {
-        "items": {item: text for items in series.values() for item, text in items.items()},
-        "series": {item: name for name, items in series.items() for item in items},
-    }

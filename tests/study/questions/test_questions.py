@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 import study.questions
 from study.questions import QUESTIONS, AnswerError, Asked
 from study.questions.question import Question
+from study.questions.sets import question_sets
 
 ASKED = TypeAdapter(Asked)
 EXAMPLES: dict[str, dict[str, object]] = {
@@ -136,6 +137,31 @@ def test_godspeed_has_its_24_items_in_five_series_and_scores_their_means():
     assert question.scores(answers)["safety"] == 1.5
     assert question.scores(answers)["animacy"] == 4
     assert question.scores({}) == {}
+
+
+@pytest.mark.parametrize("name", question_sets())
+def test_every_set_is_complete_in_english_and_german(name):
+    question = ASKED.validate_python({question_sets()[name].kind: {"set": name}})
+    texts = [question.text, *question.items.values(), *question.values.values()]
+    assert all(not text.lacks(["en", "de"]) for text in texts)
+    assert set(question.series) == set(question.items)
+
+
+def test_only_translations_of_our_own_are_called_unpublished():
+    unpublished = {name for name, one in question_sets().items() if one.unpublished}
+    assert unpublished == {"rosas", "rosas warmth", "rosas competence", "rosas discomfort"}
+
+
+def test_godspeed_five_asks_about_the_person_not_the_robot():
+    safety = ASKED.validate_python({"differential": {"set": "godspeed safety"}})
+    assert safety.text.in_("en") == "Please rate your emotional state on these scales:"
+    # Bartneck et al. (2009): the safer end is the second of the first two pairs
+    assert [safety.items[item].in_("en") for item in safety.items] == [
+        "Anxious – Relaxed", "Agitated – Calm", "Quiescent – Surprised"
+    ]  # fmt: skip
+    assert [safety.items[item].in_("de") for item in safety.items] == [
+        "Ängstlich – Entspannt", "Aufgewühlt – Ruhig", "Still – Überrascht"
+    ]  # fmt: skip
 
 
 def test_rosas_has_its_three_scales_of_six_on_nine_points():
