@@ -63,7 +63,7 @@ def midpoint(target: Target) -> Scores:
 
 def grand_mean(target: Target) -> Scores:
     """The rating against the mean of all ratings, taken as if it were known."""
-    ratings = target.ratings[~np.isnan(target.ratings)]
+    ratings = target.ratings.T[~np.isnan(target.ratings.T)]
     null = float(ratings.mean()) if ratings.size else sum(target.scale) / 2
     return Scores(target.on_target, null=null, estimated=True)
 

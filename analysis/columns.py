@@ -5,8 +5,11 @@ Five million rows take some bytes per row and column, whatever the length of the
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import repeat
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +22,7 @@ KEEP = np.array([(1 << 8 * length) - 1 for length in range(WORD + 1)], dtype=np.
 NO_WORD = (1 << 8 * WORD) - 1  # larger than any: UTF-8 has no byte 255
 
 Words = NDArray[np.uint64]
-Numbers = NDArray[np.int64]
+Numbers = NDArray[np.int32]
 Codes = NDArray[np.integer]
 
 
@@ -53,11 +56,14 @@ def read_columns(path: Path, names: Iterable[str]) -> dict[str, Column]:
     """Columns of a file as the texts that stand there, none of them taken for a number or a missing value."""
     header = read_header(path)
     gathered = {name: _Gathered(header.index(name)) for name in names}
-    below_header = 1
-    for fields in read_fields(path, len(header)):
-        for column in gathered.values():
-            column.add(fields, below_header)
-        below_header = 0
+    below = 1  # the header
+    under_way: Iterator[None] = iter(())
+    with ThreadPoolExecutor() as threads:  # columns are gathered while the next block is cut
+        for fields in read_fields(path, len(header)):
+            deque(under_way, maxlen=0)
+            under_way = threads.map(_Gathered.add, gathered.values(), repeat(fields), repeat(below))
+            below = 0
+        deque(under_way, maxlen=0)
     return {name: column.whole() for name, column in gathered.items()}
 
 
@@ -84,13 +90,15 @@ class _Gathered:
         spelling = self.spellings.numbers(text, starts, ends - starts)
         if (more := self.spellings.size - self.codes.size) > 0:
             self.codes = np.append(self.codes, np.full(more, -1, dtype=np.int32))
-        new = np.flatnonzero(self.codes[spelling] < 0)
+        codes: Codes = self.codes[spelling]
+        if codes.min(initial=0) >= 0:
+            return codes
+        new = np.flatnonzero(codes < 0)
         for place in np.sort(np.unique(spelling[new], return_index=True)[1]):
             at = new[place]
             self.codes[spelling[at]] = len(self.values)
             self.values.append(text[starts[at] : ends[at]].decode().replace('""', '"'))
-        codes: Codes = self.codes[spelling]
-        return codes
+        return self.codes[spelling]
 
     def whole(self) -> Column:
         """The column when all is read."""
@@ -132,7 +140,8 @@ class _Spellings:
         for done in range(WORD, int(lengths.max(initial=0)), WORD):
             longer = np.flatnonzero(lengths > done)
             word = self.next.numbers(_words(text, starts[longer] + done, lengths[longer] - done))
-            found[longer] = 2 * self.pairs.numbers((found[longer] << 32 | word).astype(np.uint64)) + 1
+            pairs: Words = found[longer].astype(np.uint64) << np.uint64(32) | word.astype(np.uint64)
+            found[longer] = 2 * self.pairs.numbers(pairs) + 1
         return found
 
 
@@ -141,7 +150,7 @@ class _Numbered:
 
     def __init__(self) -> None:
         self.words: Words = np.array([NO_WORD], dtype=np.uint64)  # sorted
-        self.of_word = np.array([-1])
+        self.of_word = np.array([-1], dtype=np.int32)
 
     def numbers(self, words: Words) -> Numbers:
         """The number of each word, (rows,)."""
@@ -150,7 +159,7 @@ class _Numbered:
         if unknown.any():
             new = np.unique(words[unknown])
             at = np.searchsorted(self.words, new)
-            numbers = np.arange(new.size) + self.words.size - 1
+            numbers = np.arange(new.size, dtype=np.int32) + self.words.size - 1
             self.words, self.of_word = np.insert(self.words, at, new), np.insert(self.of_word, at, numbers)
             place = np.searchsorted(self.words, words)
         return self.of_word[place]

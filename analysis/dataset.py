@@ -138,11 +138,10 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     """
     naming = Naming.of(protocol, columns or {})
     rows = _read(path, protocol, naming)
-    participants = tuple(sorted(name for name in rows.names("participant") if name))
     empty = [
         Answers(
             part=part.id,
-            participants=participants,
+            participants=rows.participants,
             stimuli=part.stimuli,
             items=tuple(question.items),
             options=tuple(question.values),
@@ -157,19 +156,18 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
         if question.values
     ]
     which = _question_of_each_row(rows, protocol, empty)
-    nobody = rows.codes("participant", {"": 0}) == 0
-    rows.refuse_if((which >= 0) & nobody, "has no participant")
+    rows.refuse_if((which >= 0) & (rows.person < 0), "has no participant")
     filled = [_fill(question, rows, which == q, naming) for q, question in enumerate(empty)]
     with path.open("rb") as file:
         sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     return Responses(
         path=path,
         sha256=sha256,
-        participants=participants,
+        participants=rows.participants,
         questions=tuple(question for question in filled if question.expected is None),
         checks=tuple(question for question in filled if question.expected is not None),
-        trials=_trials(rows, protocol, participants),
-        median_rt_s=_median_rt_s(rows, which >= 0, participants),
+        trials=_trials(rows, protocol),
+        median_rt_s=_median_rt_s(rows, which >= 0),
         kind=_kind(rows),
     )
 
@@ -277,14 +275,8 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
 def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_], naming: Naming) -> Answers:
     """The question with the answers of its rows."""
     shape = (len(question.items), len(question.stimuli), len(question.participants))
-    places = [
-        rows.codes(column, {name: i for i, name in enumerate(names)})[mine]
-        for column, names in (
-            ("item", question.items),
-            ("stimulus", question.stimuli),
-            ("participant", question.participants),
-        )
-    ]
+    items = rows.codes("item", {name: i for i, name in enumerate(question.items)})[mine]
+    stimuli = rows.codes("stimulus", {name: i for i, name in enumerate(question.stimuli)})[mine]
     options = naming.options(question)
     written = {answer: option_of(answer, options) for answer in rows.names("response")}
     answers = rows.codes("response", written, unknown=UNKNOWN)[mine]
@@ -295,7 +287,7 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_], naming: Naming
             f"{rows.value('item', row)}; known: {', '.join(filter(None, options))}, or empty for none"
         ),
     )
-    cells = np.ravel_multi_index(tuple(places), shape)
+    cells = np.ravel_multi_index((items, stimuli, rows.person[mine]), shape)
     _refuse_duplicates(rows, mine, cells, int(np.prod(shape)))
     codes = np.full(shape, MISSING, dtype=np.int8)
     codes.reshape(-1)[cells] = answers
@@ -326,24 +318,23 @@ def _among(mine: NDArray[np.bool_], bad: NDArray[np.bool_]) -> NDArray[np.bool_]
     return marked
 
 
-def _trials(rows: Rows, protocol: Protocol, participants: tuple[str, ...]) -> dict[str, FloatArray]:
+def _trials(rows: Rows, protocol: Protocol) -> dict[str, FloatArray]:
     """When in its part each participant saw each stimulus, by the column `trial`."""
     if "trial" not in rows.columns:
         return {}
     number = {name: int(name) if name.isdecimal() else MISSING for name in rows.names("trial")}
     trial = rows.codes("trial", number)
-    person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
     seen = {}
     for part in protocol.parts.values():
         stimulus = rows.codes("stimulus", {name: i for i, name in enumerate(part.stimuli)})
-        there = (stimulus >= 0) & (trial >= 0) & (person >= 0)
-        times = np.full((len(participants), len(part.stimuli)), np.nan)
-        times[person[there], stimulus[there]] = trial[there]
+        there = (stimulus >= 0) & (trial >= 0) & (rows.person >= 0)
+        times = np.full((len(rows.participants), len(part.stimuli)), np.nan)
+        times[rows.person[there], stimulus[there]] = trial[there]
         seen[part.id] = times
     return seen
 
 
-def _median_rt_s(rows: Rows, mine: NDArray[np.bool_], participants: tuple[str, ...]) -> FloatArray | None:
+def _median_rt_s(rows: Rows, mine: NDArray[np.bool_]) -> FloatArray | None:
     """Each participant's median time per answer, (participants,)."""
     if "rt_ms" not in rows.columns:
         return None
@@ -352,9 +343,8 @@ def _median_rt_s(rows: Rows, mine: NDArray[np.bool_], participants: tuple[str, .
         mine & np.isinf(times),
         lambda row: f"rt_ms {rows.value('rt_ms', row)!r} is not a number of milliseconds",
     )
-    person = rows.codes("participant", {name: i for i, name in enumerate(participants)})
     timed = mine & ~np.isnan(times)
-    return _medians(times[timed] / 1000, person[timed], len(participants))
+    return _medians(times[timed] / 1000, rows.person[timed], len(rows.participants))
 
 
 def _milliseconds(written: str) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +33,16 @@ class Rows:
     def number(self) -> int:
         """How many there are."""
         return next(iter(self.columns.values())).codes.size
+
+    @cached_property
+    def participants(self) -> tuple[str, ...]:
+        """Who answered, sorted."""
+        return tuple(sorted(name for name in self.names("participant") if name))
+
+    @cached_property
+    def person(self) -> NDArray[np.int32]:
+        """The place of each row's participant among them, (rows,); −1 where none is named."""
+        return self.codes("participant", {name: i for i, name in enumerate(self.participants)})
 
     def names(self, column: str) -> Sequence[str]:
         """Every value that occurs in a column."""
