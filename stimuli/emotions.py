@@ -28,10 +28,10 @@ SOURCES = {
 }
 
 EVIDENCE = (
-    "Wallbott coded actors' movements and postures; Crane & Gross, Roether et al. and Halovic & Kroos studied "
-    "gait; Beck et al. had people judge a robot's poses with its head up and down; Keltner and Darwin describe. "
-    "Where findings differ one is followed: Roether et al. saw arms bent in anger as in fear, Wallbott expansive "
-    "movement."
+    "Wallbott coded actors' movements and postures; Crane & Gross, Roether et al. and Halovic & Kroos "
+    "studied gait; Beck et al. had people judge a robot's poses with its head up and down; Keltner, Darwin "
+    "and Lasseter describe. Where findings differ one is followed: Roether et al. saw arms bent in anger as "
+    "in fear, Wallbott expansive movement."
 )
 
 
