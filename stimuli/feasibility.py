@@ -22,10 +22,19 @@ class Violation:
     value: float
     limit: float
     unit: str
+    excess: float  # beyond the limit, as a share of all that is allowed
 
     def __str__(self) -> str:
-        excess = f"{self.quantity} {self.value:.4g} {self.unit}, limit {self.limit:.4g}"
-        return f"{self.joint} at {self.time_s:.2f} s: {excess}"
+        value = f"{self.quantity} {self.value:.4g} {self.unit}".rstrip()
+        return f"{self.joint} at {self.time_s:.2f} s: {value}, limit {self.limit:.4g}"
+
+
+def in_short(violations: list[Violation], at_most: int = 4) -> str:
+    """The worst of them, and how many there are besides."""
+    worst = sorted(violations, key=lambda violation: -violation.excess)
+    named = "; ".join(str(violation) for violation in worst[:at_most])
+    more = len(worst) - at_most
+    return named + (f"; and {more} more limit{'s' if more > 1 else ''} exceeded" if more > 0 else "")
 
 
 QUANTITIES = ("position", "velocity", "acceleration")
@@ -49,7 +58,8 @@ def _of_joint(trajectory: Trajectory, joint: Joint) -> list[Violation]:
             worst = int(np.argmax(excess))
             value, time_s = float(bounded.values[worst]), float(trajectory.times[worst])
             limit = bounded.upper if value > bounded.upper else bounded.lower
-            found.append(Violation(joint.name, bounded.quantity, time_s, value, limit, bounded.unit))
+            share = float(excess[worst]) / (bounded.upper - bounded.lower)
+            found.append(Violation(joint.name, bounded.quantity, time_s, value, limit, bounded.unit, share))
     return found
 
 
@@ -71,7 +81,9 @@ def _bounded(trajectory: Trajectory, joint: Joint) -> tuple[_Bounded, ...]:
     acceleration = np.diff(velocity) / np.diff(trajectory.times)[1:]
     unit = joint.unit
     return (
-        _Bounded("position", unit, y, joint.lower, joint.upper, TOLERANCE * joint.range),
+        _Bounded(
+            "position", "" if unit == "1" else unit, y, joint.lower, joint.upper, TOLERANCE * joint.range
+        ),
         _Bounded("velocity", f"{unit}/s", velocity, *_both_ways(joint.max_velocity)),
         _Bounded("acceleration", f"{unit}/s²", acceleration, *_both_ways(joint.max_acceleration)),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from stimuli.dmp import Primitive
 from stimuli.errors import InputError
-from stimuli.feasibility import margins, violations
+from stimuli.feasibility import in_short, margins, violations
 from stimuli.gestures import read_gesture
 from stimuli.principles import Modulation
 from stimuli.principles.ant import growths
@@ -38,9 +38,8 @@ def generate(spec: StimulusSpec, robot: Robot) -> Motion:
     demonstration = read_gesture(spec.gesture, robot, spec.learning.dt_s)
     beyond = violations(demonstration, robot, DEMONSTRATED)
     if beyond:
-        places = "; ".join(map(str, beyond))
         raise InputError(
-            f"{spec.gesture}: the demonstration itself exceeds what {robot.name} can do: {places}"
+            f"{spec.gesture}: the demonstration itself exceeds what {robot.name} can do: {in_short(beyond)}"
         )
     primitive, modulation = Primitive.learn(demonstration, spec.learning), spec.modulation
     try:
@@ -52,8 +51,7 @@ def generate(spec: StimulusSpec, robot: Robot) -> Motion:
     except InputError as err:
         raise InputError(f"{spec.id}: {err}") from err
     if exceeded:
-        places = "; ".join(map(str, exceeded))
-        raise InputError(f"{spec.id}: {places}. {advice(primitive, modulation, robot)}")
+        raise InputError(f"{spec.id}: {in_short(exceeded)}. {advice(primitive, modulation, robot)}")
     left = margins(trajectory, robot)
     for joint, growth in growths(primitive.course(modulation, robot)).items():
         left[joint]["anticipation_growth"] = growth

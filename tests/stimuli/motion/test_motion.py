@@ -10,7 +10,7 @@ import pytest
 from stimuli.descriptors import describe, sparc
 from stimuli.dmp import Learning, Primitive
 from stimuli.errors import InputError
-from stimuli.feasibility import TOLERANCE, violations
+from stimuli.feasibility import TOLERANCE, in_short, violations
 from stimuli.kinematics import link_poses
 from stimuli.motion import generate
 from stimuli.principles import Modulation
@@ -68,6 +68,17 @@ def test_what_the_robot_cannot_do_is_refused_with_the_largest_intensity_that_fit
     generate(spec(**{**modulation, "exa": fits - 0.005}), robot)
     with pytest.raises(InputError):
         generate(spec(**{**modulation, "exa": fits + 0.01}), robot)
+
+
+def test_of_many_limits_exceeded_the_worst_are_named_and_the_others_counted(robot, demonstrate):
+    joints = tuple(replace(joint, lower=0.0, upper=0.4, max_velocity=0.5) for joint in robot.joints)
+    exceeded = violations(demonstrate(3), replace(robot, joints=joints))
+    told = in_short(exceeded)
+    assert told.startswith(str(max(exceeded, key=lambda violation: violation.excess)))
+    assert told.count(" at ") == 4
+    assert told.endswith(f"; and {len(exceeded) - 4} more limits exceeded")
+    hand = next(one for one in exceeded if (one.joint, one.quantity) == ("Hand", "position"))
+    assert f"position {hand.value:.4g}, limit {hand.limit:g}" in str(hand)  # no unit
 
 
 def test_too_fast_is_refused_too(spec, robot):
