@@ -140,8 +140,9 @@ class Archive:
             begun = {row["participant"]: row for row in db.execute(select(sessions)).mappings()}
             known = {row["participant"]: row for row in db.execute(select(contacts)).mappings()}
             steps: dict[str, list[str]] = {}
-            order = select(responses.c.participant, responses.c.step).order_by(responses.c.answered_at)
-            for name, step in db.execute(order):
+            active = {name: row["begun_at"] for name, row in begun.items()}
+            columns = (responses.c.participant, responses.c.step, responses.c.answered_at)
+            for name, step, active[name] in db.execute(select(*columns).order_by(responses.c.answered_at)):
                 steps.setdefault(name, []).append(step)
         return [
             Progress(
@@ -149,7 +150,7 @@ class Archive:
                 contact=_read_contact(known.get(person["name"])),
                 session=_read_session(row) if (row := begun.get(person["name"])) else None,
                 answered=tuple(steps.get(person["name"], ())),
-                active_at=None if row is None else row["active_at"],
+                active_at=active.get(person["name"]),
             )
             for person in people
         ]

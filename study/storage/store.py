@@ -11,7 +11,7 @@ from datetime import datetime, timedelta
 from typing import Literal, cast, get_args
 from uuid import UUID
 
-from sqlalchemy import Connection, bindparam, func, insert, or_, select, update
+from sqlalchemy import Connection, bindparam, exists, func, insert, or_, select, update
 
 from study.orders import assign_slot
 from study.participants import Contact, Participant
@@ -110,11 +110,15 @@ class Store(Archive):
             db = transaction.db
             if (known := read_session(db, participant.name)) is not None:
                 return known
+            since = now - stale_after
+            answered = exists().where(
+                responses.c.participant == sessions.c.participant, responses.c.answered_at > since
+            )
             holders = (
                 select(sessions.c.slot)
                 .join(participants, participants.c.name == sessions.c.participant)
                 .where(participants.c.kind == participant.kind)
-                .where(or_(sessions.c.completed_at.is_not(None), sessions.c.active_at > now - stale_after))
+                .where(or_(sessions.c.completed_at.is_not(None), sessions.c.begun_at > since, answered))
             )
             session = draw(assign_slot(Counter(db.execute(holders).scalars())))
             values = vars(session) | {
@@ -122,7 +126,6 @@ class Store(Archive):
                 "slot": session.plan.slot,
                 "seed": session.plan.seed,
                 "algorithm": session.plan.algorithm,
-                "active_at": now,
             }
             db.execute(insert(sessions), values)
             return session
@@ -171,9 +174,8 @@ class Store(Archive):
                 content = submission.model_dump(mode="json")
                 row = {name: content[name] for name in ("id", "step", "on_page_ms", "answers", "views")}
                 transaction.add(ANSWER, row | {"participant": name, "answered_at": now})
-                done = next_step(steps, {*answered, submission.step}) is None
-                active = {"name": name, "active_at": now, "completed_at": now if done else None}
-                transaction.add(ACTIVE, active)
+                if next_step(steps, {*answered, submission.step}) is None:
+                    transaction.add(COMPLETED, {"name": name, "now": now})
             return verdict
 
         def update_visit(verdict: Verdict) -> None:
@@ -253,10 +255,8 @@ COMPLETE = "as many as planned have completed"  # beside "closed", where the pro
 SHOW = insert(pages)
 ANSWER = insert(responses)
 HAPPEN = insert(events)
-ACTIVE = (
-    update(sessions)
-    .where(sessions.c.participant == bindparam("name"))
-    .values(active_at=bindparam("active_at"), completed_at=bindparam("completed_at"))
+COMPLETED = (
+    update(sessions).where(sessions.c.participant == bindparam("name")).values(completed_at=bindparam("now"))
 )
 
 
@@ -272,19 +272,17 @@ def _read_visit(db: Connection, token_sha256: str) -> Visit | None:
     if row is None:
         return None
     name = row["name"]
-    given = select(responses.c.step, responses.c.id, responses.c.answers).where(
-        responses.c.participant == name
-    )
-    answered = db.execute(given).all()
+    session = read_session(db, name)
+    columns = (responses.c.step, responses.c.id, responses.c.answers, responses.c.answered_at)
+    answered = db.execute(select(*columns).where(responses.c.participant == name)).all()
     shown = select(pages.c.step, pages.c.shown_at).where(pages.c.participant == name)
-    active = select(sessions.c.active_at).where(sessions.c.participant == name)
     return Visit(
         Participant(**row),
-        read_session(db, name),
-        answered={step: UUID(id_) for step, id_, _ in answered},
-        given=given_in((step, values_in(answers)) for step, _, answers in answered),
+        session,
+        answered={row.step: UUID(row.id) for row in answered},
+        given=given_in((row.step, values_in(row.answers)) for row in answered),
         shown={row.step: row.shown_at for row in db.execute(shown)},
-        active_at=db.execute(active).scalar(),
+        active_at=max((row.answered_at for row in answered), default=session.begun_at if session else None),
     )
 
 

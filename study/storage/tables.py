@@ -80,7 +80,6 @@ sessions = Table(
     Column("consent_sha256", String(64), nullable=False),
     Column("completion_code", String(40), nullable=False, unique=True),
     Column("begun_at", Utc, nullable=False),
-    Column("active_at", Utc, nullable=False, index=True),
     Column("completed_at", Utc),
 )
 
@@ -96,7 +95,7 @@ responses = Table(
     "responses",
     metadata,
     Column("id", String(36), primary_key=True),
-    Column("participant", ForeignKey("sessions.participant", ondelete="CASCADE"), nullable=False, index=True),
+    Column("participant", ForeignKey("sessions.participant", ondelete="CASCADE"), nullable=False),
     Column("step", String(200), nullable=False),
     Column("answered_at", Utc, nullable=False),
     Column("on_page_ms", Float, nullable=False),

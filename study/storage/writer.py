@@ -9,6 +9,7 @@ alone: nobody's answer is lost for a neighbour's fault.
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, field
@@ -19,6 +20,9 @@ from sqlalchemy import Connection, Engine, Executable
 
 Row = Mapping[str, object]
 T = TypeVar("T")
+
+BUSY = 4  # writes in one transaction, after which the next waits for company
+GATHER_S = 0.01
 
 
 class Transaction:
@@ -90,12 +94,14 @@ class Writer:
         self._thread.join()
 
     def _run(self) -> None:
-        is_open = True
-        while is_open:
-            waiting = [self._waiting.get()]
+        waiting: list[Task[Any] | None] = []
+        while None not in waiting:
+            first = self._waiting.get()
+            if len(waiting) >= BUSY:
+                time.sleep(GATHER_S)
+            waiting = [first]
             while not self._waiting.empty():
                 waiting.append(self._waiting.get())
-            is_open = None not in waiting
             self._write([task for task in waiting if task is not None])
 
     def _write(self, tasks: list[Task[Any]]) -> None:
