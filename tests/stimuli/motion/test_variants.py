@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stimuli.dmp import Learning, Primitive
+from stimuli.online import run
 from stimuli.principles import PRINCIPLES, Modulation
 from stimuli.rollout import integrate, sampled
 from stimuli.superposition import answers
@@ -13,13 +14,14 @@ from stimuli.variants import integrate_all
 
 
 @pytest.mark.parametrize("scheme", ["foh", "zoh", "semi"])
-def test_variants_together_are_the_motions_one_by_one(scheme, robot, demonstrate):
+def test_variants_together_are_the_motions_one_by_one_and_step_by_step(scheme, robot, demonstrate):
     primitive = Primitive.learn(demonstrate(1), Learning(scheme=scheme))
     modulations = [Modulation()] + [Modulation().with_(kind.example(robot)) for kind in PRINCIPLES.values()]
     courses = [primitive.course(modulation, robot) for modulation in modulations]
     together = integrate_all(courses, 0.02, 200)
     for course, positions in zip(courses, together, strict=True):
-        assert np.abs(integrate(course, 0.02, 200)[0] - positions).max() < 1e-11
+        for single in (integrate(course, 0.02, 200)[0], run(course, 0.02, 200)[0]):
+            assert np.abs(single - positions).max() < 1e-11
     assert [course.is_plain and course.is_linear for course in courses].count(True) >= 5
 
 
