@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
@@ -20,9 +21,12 @@ from study.protocol import Problem, Protocol
 from study.questions.scale import Scale
 from study.specs import specs
 from study.text import Text
+from study.words import count, ordered, stop_rule, tested
+from study.web.language import interface_languages
 from study.written import Location
 
 Verdict = Literal["good", "mind", "wrong"]
+WIDTH = 110  # of the screen
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,12 @@ class Finding:
     verdict: Verdict
     about: str
     message: str
+    within: str | None = None  # what it is a part of
+
+    @property
+    def title(self) -> str:
+        """What it is about, as it stands on the screen."""
+        return f"  {self.about}" if self.within else self.about
 
 
 @dataclass(frozen=True)
@@ -53,19 +63,28 @@ class Report:
 
     def __str__(self) -> str:
         signs = {"good": "✓", "mind": "!", "wrong": "✗"}
-        width = max(len(finding.about) for finding in self.findings)
+        width = max(len(finding.title) for finding in self.findings)
         lines = []
         for finding in self.findings:
-            first, *rest = finding.message.split("\n")
-            lines.append(f"{signs[finding.verdict]} {finding.about:<{width}}  {first}")
+            first, *rest = _wrapped(finding.message, WIDTH - width - 4)
+            lines.append(f"{signs[finding.verdict]} {finding.title:<{width}}  {first}")
             lines += [f"  {'':<{width}}  {line}" for line in rest]
         end = "Ready for participants." if self.good else "Not ready: mend what is marked ✗."
         return "\n".join([f"{self.study} ({self.sha256[:12]})", *lines, end])
 
 
+def _wrapped(message: str, width: int) -> list[str]:
+    """The message's lines, long ones broken; places in files and what is to be copied stay whole."""
+    return [
+        part
+        for line in message.split("\n")
+        for part in textwrap.wrap(line, width, break_long_words=False, break_on_hyphens=False) or [""]
+    ]
+
+
 def check(protocol: Protocol) -> Report:
     """Look at everything that can be known before data are gathered."""
-    looked_at = (_structure, _motions, _texts, _orders, _hypotheses)
+    looked_at = (_structure, _motions, _texts, _orders, _stop, _hypotheses)
     findings = tuple(finding for look in looked_at for finding in look(protocol))
     return Report(protocol.study, protocol.sha256, findings)
 
@@ -76,9 +95,9 @@ def _structure(protocol: Protocol) -> Iterator[Finding]:
     yield Finding(
         "good",
         "study",
-        f"{len(protocol.stimuli)} stimuli, {judged} of them judged in {len(protocol.parts)} "
-        f"part{'s' if len(protocol.parts) > 1 else ''}; a participant sees {videos} videos in about "
-        f"{minutes} minutes",
+        f"{count(len(protocol.stimuli), 'stimulus', 'stimuli')}; {judged} to judge in "
+        f"{count(len(protocol.parts), 'part')}; a participant sees {count(videos, 'video')} in about "
+        f"{count(minutes, 'minute')}",
     )
 
 
@@ -103,8 +122,9 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         return
     titles = ", ".join(robot.title for robot in robots.values())
     yield Finding("good", "gestures", f"{len(protocol.gestures)} read for {titles}")
-    for robot in robots.values():
-        yield Finding("good", "relations", in_short(relations_of(robot, robot.joint_names)))
+    if any({"sec", "follow"} & set(one.modulation.model_dump()) for one in protocol.stimuli.values()):
+        for robot in robots.values():
+            yield Finding("good", "relations", in_short(relations_of(robot, robot.joint_names)))
     beyond = []
     for spec in specs(protocol).values():
         try:
@@ -128,6 +148,11 @@ def _texts(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("wrong", "texts", "\n".join(map(str, problems)))
     else:
         yield Finding("good", "texts", f"complete in {' and '.join(protocol.languages)}")
+    for language in protocol.languages:
+        if language not in interface_languages():
+            yield Finding(
+                "mind", "texts", f"buttons and messages are not in {language}: docs/sessions.md, Languages"
+            )
     for question in (question for part in protocol.parts.values() for question in part.questions):
         if isinstance(question, Scale):
             for language in sorted(set(question.unpublished) & set(protocol.languages)):
@@ -176,14 +201,25 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("wrong", "orders", str(error))
         return
     whole = cycle(protocol)
-    if planned % whole:
+    if whole == 1:
+        yield Finding(
+            "good", "orders", "any number of participants will do: no order is shared out among them"
+        )
+    elif planned % whole:
         fewer, more = planned - planned % whole, planned - planned % whole + whole
         others = f"{fewer} or {more}" if fewer else str(more)
         yield Finding("mind", "orders", f"{planned} participants leave the orders uneven; {others} would not")
     else:
-        yield Finding("good", "orders", f"balanced for {planned} participants (a multiple of {whole})")
+        yield Finding(
+            "good", "orders", f"{planned} participants fill them evenly, as every multiple of {whole}"
+        )
     for part in balance(protocol, plans):
-        yield Finding("good", f"  {part.part}", str(part))
+        order = ordered(protocol.parts[part.part].order)
+        yield Finding("good", part.part, f"{order}: {part}", within="orders")
+
+
+def _stop(protocol: Protocol) -> Iterator[Finding]:
+    yield Finding("good", "stop", f"data are gathered {stop_rule(protocol.participants)}")
 
 
 def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
@@ -192,12 +228,6 @@ def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
     if not hypotheses:
         yield Finding("mind", "analysis", "no hypothesis is declared; tests chosen after the data prove less")
     for name, hypothesis in hypotheses.items():
-        tested = "against chance" if hypothesis.of else " against ".join(hypothesis.compare or ())
-        corrected = "" if hypothesis.correction == "none" else f", {hypothesis.correction}-corrected"
-        mirrored = f"; the same test as {hypothesis.mirrors}, counted once" if hypothesis.mirrors else ""
-        yield Finding(
-            "good",
-            name,
-            f"{hypothesis.part}: {hypothesis.test}, {tested}, {hypothesis.alternative}{corrected}{mirrored}"
-            f"{powers.get(name, '')}",
-        )
+        mirrored = f"; the mirror image of {hypothesis.mirrors}, counted once" if hypothesis.mirrors else ""
+        found = f"{tested(protocol, hypothesis)}{mirrored}{powers.get(name, '')}"
+        yield Finding("good", name, f"{hypothesis.part}: {found}")

@@ -29,7 +29,7 @@ from study.web.limits import count_wrong_guess, require_guesses_left
 from study.web.overview import TROUBLES, may_see_report, overview
 from study.web.pages import fragment, render
 from study.web.site import site_of
-from study.web.visitor import language_of, to
+from study.web.visitor import language_of, speaking, to
 
 COOKIE = "experimenter"
 MOST_LINKS = 200  # made at once
@@ -61,8 +61,9 @@ def require_login(request: Request, form_token: str | None = None) -> str:
 @router.get("", name="experimenter")
 def experimenter(request: Request) -> Response:
     """The page itself, or the way in."""
+    language = language_of(request)
     if cookie_of(request) is None:
-        return render(request, "login.html", language=language_of(request), fault=None)
+        return speaking(render(request, "login.html", language=language, fault=None), language)
     return _page(request, "experimenter.html")
 
 

@@ -42,6 +42,11 @@ def load_language(code: str) -> Language:
     return Language(code, {str(message.id): str(message.string) for message in messages})
 
 
+def interface_languages() -> tuple[str, ...]:
+    """The codes of all languages the interface is written in."""
+    return (SOURCE, *sorted(catalogue.stem for catalogue in CATALOGUES.glob("*.po")))
+
+
 def preferred(accept_language: str, offered: Sequence[str]) -> str:
     """The offered language a browser likes best (RFC 9110, 12.5.4); the first offered if it likes none."""
     wishes = []

@@ -28,6 +28,7 @@ def test_uneven_numbers_and_missing_texts_and_gestures_are_said(load, written):
     assert "30 or 36 would not" in found(report, "orders").message
     assert "ask[0].rate.items.joy: is missing in de and fr" in found(report, "texts").message
     assert "texts.consent: is missing in fr" in found(report, "texts").message
+    assert "not in fr" in str(report), "the interface has no French catalogue"
     assert "gestures.explain: " in found(report, "gestures").message
     assert str(report).endswith("Not ready: mend what is marked ✗.")
     assert report.as_json()["good"] is False
