@@ -19,9 +19,9 @@ class Slow(Principle):
     The sigmoid is logistic with the given `steepness`, shifted and scaled to run exactly from (0, 0) to (1,
     1).
 
-    `form: phase`, as in the paper, bends the phase alone. The spring still leaves at once for where the
-    forcing term holds it, so the start is little slower than before. `form: retime` runs the whole motion by
-    the bent clock, and so slows both ends exactly as drawn.
+    `form: phase`, as in the paper, bends the phase alone. The spring goes on in real time, so the start is
+    less slow than drawn, and peaks and dips are lost. `form: retime` runs the whole motion by the bent clock,
+    and so slows both ends exactly as drawn and keeps the path.
     """
 
     kind: ClassVar[str] = "slow"
