@@ -1,22 +1,33 @@
 """Copies of a study in SQLite, made while it runs, and the way back.
 
-A backup is a whole database, made by SQLite's own backup, and is opened like any other. The oldest are
-deleted, so that the answers of somebody who withdrew are gone from the backups too when these have expired.
+A backup is a whole database, made by SQLite's own backup, and is opened like any other. Whoever withdrew is
+deleted from the older backups too when the next one is made, and does not come back when one is restored.
 """
 
 from __future__ import annotations
 
 import sqlite3
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
 from stimuli.errors import InputError
+from study.storage.sqlite import held
 
 KEPT = 48
 SUFFIX = ".db"
+
+
+@dataclass(frozen=True)
+class Withdrawal:
+    """A row of the table of withdrawals."""
+
+    participant: str
+    at: str
+    responses: int
 
 
 def back_up(database: Path, folder: Path, *, now: datetime, kept: int = KEPT) -> Path:
@@ -24,13 +35,17 @@ def back_up(database: Path, folder: Path, *, now: datetime, kept: int = KEPT) ->
     folder.mkdir(parents=True, exist_ok=True)
     copy = folder / f"{database.stem}-{now:%Y%m%dT%H%M%S}Z{SUFFIX}"
     copy_database(database, copy)
-    for expired in sorted(folder.glob(f"{database.stem}-*{SUFFIX}"))[:-kept]:
+    copies = sorted(folder.glob(f"{database.stem}-*{SUFFIX}"))
+    for expired in copies[:-kept]:
         expired.unlink()
+    gone = withdrawals(copy)
+    for older in copies[-kept:]:
+        delete(older, gone)
     return copy
 
 
 def restore(backup: Path, database: Path) -> None:
-    """Put a backup in the place of a database; the server must not be running."""
+    """Put a backup in the place of a database that is not being served; who withdrew since stays deleted."""
     try:
         with closing(sqlite3.connect(f"{backup.absolute().as_uri()}?mode=ro", uri=True)) as db:
             [verdict] = db.execute("PRAGMA integrity_check").fetchone()
@@ -39,7 +54,32 @@ def restore(backup: Path, database: Path) -> None:
         raise InputError(f"{backup}: is no backup of a study ({err}).") from err
     if verdict != "ok":
         raise InputError(f"{backup}: is damaged ({verdict}). Take an older one.")
-    copy_database(backup, database)
+    with held(database):
+        gone = withdrawals(database)
+        copy_database(backup, database)
+        delete(database, gone)
+
+
+def withdrawals(database: Path) -> list[Withdrawal]:
+    """Who withdrew, as far as can be read."""
+    try:
+        with closing(sqlite3.connect(f"{database.absolute().as_uri()}?mode=ro", uri=True)) as db:
+            return [
+                Withdrawal(*row) for row in db.execute("SELECT participant, at, responses FROM withdrawals")
+            ]
+    except sqlite3.DatabaseError:  # damaged, or not there: this is what backups are for
+        return []
+
+
+def delete(database: Path, gone: Sequence[Withdrawal]) -> None:
+    """Delete participants from a database that is not in use, leaving the notes of their withdrawal."""
+    with closing(sqlite3.connect(database)) as db, db:
+        db.execute("PRAGMA foreign_keys=ON")
+        db.execute("PRAGMA secure_delete=ON")
+        for note in gone:
+            if db.execute("DELETE FROM participants WHERE name = ?", (note.participant,)).rowcount:
+                values = (note.participant, note.at, note.responses)
+                db.execute("INSERT INTO withdrawals (participant, at, responses) VALUES (?, ?, ?)", values)
 
 
 def copy_database(source: Path, target: Path) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -57,7 +58,7 @@ def serve(
     door: Door = "open",
     analyse: Callable[[Path, Path], object] | None = None,
 ) -> None:
-    """Serve a study until Ctrl-C; `announce` is called once it can be visited.
+    """Serve a study until Ctrl-C or SIGTERM; `announce` is called once it can be visited.
 
     Answers are kept in `data_folder` (SQLite), or in the database at `url`. With `kind="test"` whoever enters
     without a link is a test, kept apart from the data. `analyse` makes the report the experimenter may see.
@@ -68,26 +69,22 @@ def serve(
             f"{clips_folder}: {len(missing)} of {len(protocol.stimuli)} clips are not there "
             f"({', '.join(missing[:5])}{' …' if len(missing) > 5 else ''}). Run `study render` first."
         )
-    credentials, password = open_credentials(data_folder)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # what stops services ends it like Ctrl-C
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
-    amendments.check(protocol, store.protocol_hashes())
-    clips = clips_of(manifest, clips_folder)
-    keep_version(protocol, manifest, data_folder)
-    site = Site(
-        protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse
-    ).with_earlier(earlier_versions(protocol, data_folder), clips_folder)
-    app = create_app(site)
-    server, listener = _server(app, host, port)
-    address = f"http://{host}:{listener.getsockname()[1]}"
-    links = Links(f"{address}/", f"{address}/experimenter", password)
-    threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
-    try:
-        with _backed_up(store, data_folder / "backups"):
+    with closing(store), store.held(), _backed_up(store, data_folder / "backups"):
+        credentials, password = open_credentials(data_folder)
+        amendments.check(protocol, store.protocol_hashes())
+        clips = clips_of(manifest, clips_folder)
+        keep_version(protocol, manifest, data_folder)
+        site = Site(
+            protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse
+        ).with_earlier(earlier_versions(protocol, data_folder), clips_folder)
+        server, listener = _server(create_app(site), host, port)
+        address = f"http://{host}:{listener.getsockname()[1]}"
+        links = Links(f"{address}/", f"{address}/experimenter", password)
+        threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
+        with suppress(KeyboardInterrupt):  # uvicorn finishes what is under way and raises the signal again
             server.run(sockets=[listener])
-    except KeyboardInterrupt:
-        pass  # uvicorn has finished what was under way and raises the signal again
-    finally:
-        store.close()
 
 
 def _backed_up(store: Store, folder: Path) -> AbstractContextManager[object]:

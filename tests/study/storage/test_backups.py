@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import threading
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -7,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from stimuli.errors import InputError
-from study.participants import new_participant, new_token
+from study.participants import Contact, new_participant, new_token
 from study.storage import Store, open_store
-from study.storage.backups import BackupTimer, back_up, restore
+from study.storage.backups import BackupTimer, back_up, copy_database, restore
 
 NOON = datetime(2026, 11, 22, 12, tzinfo=UTC)
 
@@ -70,6 +71,57 @@ def test_what_is_no_backup_is_not_restored(tmp_path: Path, content: bytes) -> No
     with pytest.raises(InputError, match=r"broken\.db: is no backup"):
         restore(broken, file)
     assert file.read_bytes() == before
+
+
+def test_who_withdrew_is_in_no_backup_and_does_not_come_back(tmp_path: Path) -> None:
+    file, folder = tmp_path / "study.db", tmp_path / "backups"
+    store = open_store(f"sqlite:///{file}")
+    invite(store, 2)
+    stays, leaves = (row.participant.name for row in store.progress())
+    older = back_up(file, folder, now=NOON)
+    elsewhere = tmp_path / "elsewhere.db"
+    copy_database(older, elsewhere)
+    store.withdraw(leaves, now=NOON + timedelta(hours=1))
+    back_up(file, folder, now=NOON + timedelta(hours=2))
+    store.close()
+    assert names(older) == {stays}
+    restore(elsewhere, file)
+    restored = open_store(f"sqlite:///{file}")
+    assert [note.participant for note in restored.withdrawals()] == [leaves]
+    assert [row.participant.name for row in restored.progress()] == [stays]
+    restored.close()
+
+
+def test_nothing_of_who_withdrew_is_left_in_the_files(tmp_path: Path) -> None:
+    file, folder = tmp_path / "study.db", tmp_path / "backups"
+    store = open_store(f"sqlite:///{file}")
+    for note in ("Rosalind-Secret", "Ada-Stays"):
+        participant = new_participant(new_token(), kind="participant", created_at=NOON)
+        store.add_participant(participant, Contact(note=note))
+        store.log("video_failed", f"{note}: clip 3", participant=participant.name, now=NOON).result()
+    older = back_up(file, folder, now=NOON)
+    everything = [file, tmp_path / "study.db-wal", older]
+    assert [b"Rosalind-Secret" in path.read_bytes() for path in everything] == [False, True, True]
+    leaves = next(row.participant.name for row in store.progress() if row.contact.note == "Rosalind-Secret")
+    store.withdraw(leaves, now=NOON)
+    back_up(file, folder, now=NOON + timedelta(hours=1))
+    for path in (path for path in tmp_path.rglob("*") if path.is_file()):
+        assert b"Rosalind-Secret" not in path.read_bytes(), path
+    assert b"Ada-Stays" in file.read_bytes()
+    store.close()
+
+
+def test_a_database_that_is_being_served_is_not_replaced(tmp_path: Path) -> None:
+    file = tmp_path / "study.db"
+    store = open_store(f"sqlite:///{file}")
+    copy = back_up(file, tmp_path / "backups", now=NOON)
+    with (
+        store.held(),
+        pytest.raises(InputError, match=rf"study.db: is being served by process {os.getpid()}"),
+    ):
+        restore(copy, file)
+    store.close()
+    restore(copy, file)
 
 
 def test_a_timer_backs_up_and_once_more_at_the_end() -> None:

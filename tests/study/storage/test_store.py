@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from uuid import uuid4
 
 import pytest
+from sqlalchemy.exc import IntegrityError
 
 from stimuli.errors import InputError
 from study.orders import Plan, Trial
@@ -206,6 +208,30 @@ def test_sqlite_is_set_to_lose_nothing(tmp_path: Path) -> None:
         }.items():
             assert db.exec_driver_sql(f"PRAGMA {name}").scalar() == value
     store.close()
+
+
+def test_a_database_is_served_by_one_at_a_time(url: str, store: Store) -> None:
+    other = open_store(url)
+    with (
+        store.held(),
+        pytest.raises(InputError, match=rf"is being served by .*process {os.getpid()} on"),
+        other.held(),
+    ):
+        pass
+    with other.held():
+        pass
+    other.close()
+
+
+def test_an_id_is_taken_once(store: Store) -> None:
+    first, second = begin(store, invite(store)), begin(store, invite(store))
+    submission = Submission(id=uuid4(), step="demographics", on_page_ms=1)
+    assert send(store, first, submission) is Verdict.STORE
+    again = submission.model_copy(update={"step": "instructions:part"})
+    assert send(store, first, again) is Verdict.NOT_YET
+    with pytest.raises(IntegrityError):
+        send(store, second, submission)
+    assert answer(store, second, "demographics") is Verdict.STORE, "a neighbour's fault loses nothing"
 
 
 @pytest.mark.parametrize("url", ["study.db", "mysql://localhost/study"])

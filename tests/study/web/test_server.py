@@ -37,6 +37,7 @@ folder = Path(sys.argv[1])
 clips = Path(sys.argv[2])
 serve(load_protocol(folder), Manifest.load(clips), clips_folder=clips, data_folder=folder / "data",
       announce=announce, port=0, kind="simulated")
+print("closed")
 """
 
 
@@ -77,15 +78,34 @@ def serving(protocol: Protocol, clips_folder: Path) -> Iterator[tuple[subprocess
             process.kill()
 
 
-def test_ctrl_c_ends_it_well_and_the_password_is_made_once(
+def test_ctrl_c_and_what_stops_services_end_it_well_and_the_password_is_made_once(
     protocol: Protocol, manifest: Manifest, video_folder: Path
 ) -> None:
-    for start in (1, 2):
+    for start, stop in enumerate((signal.SIGINT, signal.SIGTERM)):
         with serving(protocol, video_folder) as (process, address, password):
-            assert (password == "None") == (start == 2)
+            assert (password == "None") == (start == 1)
             assert httpx.get(address).status_code == 200
-            process.send_signal(signal.SIGINT)
-            assert process.wait(timeout=20) == 0
+            process.send_signal(stop)
+            said, _ = process.communicate(timeout=20)
+            assert (process.returncode, said) == (0, "closed\n")
+
+
+def test_two_servers_cannot_serve_one_study_and_a_killed_one_is_not_in_the_way(
+    protocol: Protocol, manifest: Manifest, video_folder: Path
+) -> None:
+    with serving(protocol, video_folder) as (process, _, _):
+        with pytest.raises(InputError, match=rf"study.db: is being served by process {process.pid} on "):
+            serve(
+                protocol,
+                manifest,
+                clips_folder=video_folder,
+                data_folder=protocol.folder / "data",
+                announce=print,
+                port=0,
+            )
+        process.kill()
+    with serving(protocol, video_folder) as (_, address, _):
+        assert httpx.get(address).status_code == 200
 
 
 def test_no_answer_that_was_acknowledged_is_lost_when_the_server_is_killed(
