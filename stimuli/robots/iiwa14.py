@@ -59,7 +59,7 @@ def base() -> dict[str, Mesh]:
 def turning(length: float, radius: float) -> dict[str, Mesh]:
     """Along z from a joint about z to one across it, which it holds between two cheeks."""
     profile = [
-        (radius * 0.97, 0.006),
+        (radius * 0.97, -0.005),
         (radius, 0.02),
         (radius * 0.94, length * 0.45),
         (radius * 0.98, length * 0.8),
@@ -82,7 +82,7 @@ def tilting(length: float, radius: float) -> dict[str, Mesh]:
 def cap(radius: float, side: int) -> Mesh:
     """The round cover on a tilting joint's end."""
     rim, top = 0.80 * radius, radius * 0.72
-    lid = lathe([(rim, top), (rim, top + 0.016)], 32) + dome(rim, 0.008, 32).moved((0, 0, top + 0.016))
+    lid = lathe([(rim, top), (rim, top + 0.016)], 32) + dome(rim, 0.012, 32).moved((0, 0, top + 0.016))
     return lid if side > 0 else lid.moved(rpy=(np.pi, 0, 0))
 
 

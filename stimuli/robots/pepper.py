@@ -5,7 +5,7 @@ The body is our own design within the links' measured extents; no part of the ma
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -60,7 +60,7 @@ def build() -> mujoco.MjSpec:
     dress(spec, "Neck", joint=lathe([(0.031, -0.012), (0.029, 0.03), (0.027, 0.045)], 22))
     dress(spec, "Head", **head(facts.body["eyes"]))
     for side in "LR":
-        dress_arm(spec, side)
+        dress_arm(spec, side, facts.body["fingers"]["Thumb"]["xyz"])
         add_fingers(spec, side, facts.body["fingers"])
     return spec
 
@@ -249,8 +249,8 @@ def head(eyes: Mapping[str, float]) -> dict[str, Mesh]:
     }
 
 
-def dress_arm(spec: mujoco.MjSpec, side: str) -> None:
-    """Shoulder to palm, drawn for the left and mirrored for the right."""
+def dress_arm(spec: mujoco.MjSpec, side: str, thumb: Sequence[float]) -> None:
+    """Shoulder to palm, drawn for the left and mirrored for the right; `thumb` is where that begins."""
     from stimuli.robots.skeleton import dress
 
     def sided(mesh: Mesh) -> Mesh:
@@ -301,7 +301,16 @@ def dress_arm(spec: mujoco.MjSpec, side: str) -> None:
         rings=7,
         segments=18,
     )
-    dress(spec, f"{side.lower()}_wrist", shell=cuff, trim=palm)
+    dress(spec, f"{side.lower()}_wrist", shell=cuff, trim=sided(palm + thumb_ball(thumb)))
+
+
+def thumb_ball(thumb: Sequence[float]) -> Mesh:
+    """What joins the thumb to the palm."""
+    inside = np.array([0.030, -0.012, -0.002])
+    x, y, z = np.array(thumb) - inside
+    return capsule(float(np.hypot(np.hypot(x, y), z)), 0.0130, 0.0098, 9).moved(
+        inside, (0.0, -np.arctan2(z, np.hypot(x, y)), np.arctan2(y, x))
+    )
 
 
 def add_fingers(spec: mujoco.MjSpec, side: str, fingers: Mapping[str, Mapping[str, float]]) -> None:
