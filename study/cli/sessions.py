@@ -149,9 +149,10 @@ def export(
     database: Database = None,
     clips: Clips = None,
 ) -> None:
-    """Write the answers as a table, with the codebook that explains it."""
+    """Write the answers as a table, with the codebook that explains it, and as a Psych-DS dataset."""
     from stimuli.manifest import Manifest
     from study.export import export_responses
+    from study.psych_ds import write_dataset
     from study.storage import open_store
     from study.versions import earlier_versions
     from study.web.site import clips_of, hashes
@@ -170,7 +171,8 @@ def export(
     files = {sha256: hashes(clips_of(manifest, folder)) for sha256, manifest in manifests.items()}
     table = export_responses(store, protocol, out, clips=files)
     store.close()
-    console.print(f"{table} and its codebook are written.")
+    dataset = write_dataset(protocol, table, out / "psych-ds")
+    console.print(f"{table} and its codebook are written, and as a Psych-DS dataset {dataset}.")
 
 
 @app.command()
