@@ -55,6 +55,14 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
     return within
 
 
+def lay_out(figure: Figure) -> None:
+    """Place everything, once; a figure with a layout engine would be drawn twice for each file."""
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    if figure.axes:
+        ConstrainedLayoutEngine().execute(figure)
+
+
 @dataclass(frozen=True)
 class Drawing:
     """A figure with what a caption says of it, and what it says to someone who cannot see it."""
@@ -83,10 +91,9 @@ class Drawing:
         """As a figure of its own, as wide as a column."""
         from matplotlib.figure import Figure
 
-        figure = Figure(figsize=(COLUMN_IN, self.height_in), layout="constrained")
+        figure = Figure(figsize=(COLUMN_IN, self.height_in))
         self.onto(figure)
-        figure.draw_without_rendering()  # once, to place everything; then each format only draws
-        figure.set_layout_engine("none")
+        lay_out(figure)
         return figure
 
     @cached_property

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from analysis.drawing import ALARM, FAINT, INK, STYLE, Drawing
+from analysis.drawing import ALARM, FAINT, INK, STYLE, Drawing, lay_out
 
 if TYPE_CHECKING:
     from matplotlib.backends.backend_pdf import PdfPages
@@ -128,7 +128,7 @@ class Pages:
         from matplotlib.figure import Figure
 
         self._finish()
-        self.page = Figure(figsize=(WIDTH_IN, HEIGHT_IN), layout="constrained")
+        self.page = Figure(figsize=(WIDTH_IN, HEIGHT_IN))
         self.number += 1
         self.y = 0.55
         self._text(MARGIN_IN, self.footer, size=6.5, colour=FAINT)
@@ -140,4 +140,5 @@ class Pages:
 
     def _finish(self) -> None:
         if self.page is not None:
+            lay_out(self.page)
             self.pdf.savefig(self.page)  # type: ignore[no-untyped-call]
