@@ -44,11 +44,8 @@ async function preparePlayers() {
       players[index + 1]?.allow();
       if (players.every(({ seen }) => seen)) unlock();
     };
-    player.onfailure = (_, why) => {
-      report("video_failed", `${page.step} ${player.clip.role}: ${why}`);
-      say(page.texts.failed, true);
-    };
-    player.onretry = () => { say(""); fill(player); };
+    player.onfailure = (_, why) => report("video_failed", `${page.step} ${player.clip.role}: ${why}`);
+    player.onretry = () => fill(player);
   });
   players[0].allow();
   await Promise.all(players.map(fill));
@@ -88,7 +85,7 @@ form.addEventListener("submit", async (event) => {
   }
   const invalid = [...form.elements].find((element) => !element.validity.valid);
   if (invalid) {
-    say(invalid.validationMessage, true);
+    say(invalid.dataset.wanted ?? invalid.validationMessage, true);
     invalid.focus();
     return;
   }

@@ -7,6 +7,7 @@ export class Player {
   #video;
   #button;
   #status;
+  #figure;
   #lapse;
   #texts;
   #place = 0; // where in the clip we last looked, s
@@ -22,6 +23,7 @@ export class Player {
     this.clip = clip;
     this.#texts = texts;
     this.#replays = replays;
+    this.#figure = figure;
     this.#video = figure.querySelector("video");
     this.#button = figure.querySelector("button");
     this.#status = figure.querySelector("[role=status]");
@@ -51,7 +53,7 @@ export class Player {
     this.record.streamed = streamed;
     this.#video.src = url;
     this.#video.load();
-    this.#broken = false;
+    this.#setBroken(false);
     this.#loaded = true;
     this.#offer();
   }
@@ -166,10 +168,16 @@ export class Player {
 
   #failed() {
     this.#playing = false;
-    this.#broken = true;
+    this.#setBroken(true);
     this.#button.hidden = this.#button.disabled = false;
     this.#button.textContent = this.#texts.retry;
     this.onfailure(this, this.#video.error?.message || "unknown error");
+  }
+
+  #setBroken(broken) {
+    this.#broken = broken;
+    this.#figure.classList.toggle("broken", broken);
+    this.#say(broken ? this.#texts.failed : "");
   }
 
   #say(text) { this.#status.textContent = text; }

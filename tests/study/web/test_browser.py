@@ -72,6 +72,18 @@ def test_a_whole_study_with_reloads_leaves_every_answer_once(visit, page: Page, 
 
 
 @pytest.mark.parametrize("page", ["narrow German"], indirect=True)
+def test_what_is_impossible_is_said_in_the_language_of_the_study(page: Page, address: str) -> None:
+    page.goto(address)
+    page.get_by_role("button", name="Starten").click()
+    page.get_by_role("checkbox").check()
+    page.get_by_role("button", name="Ich stimme zu, weiter").click()
+    page.get_by_label("Wie alt sind Sie?").fill("7")
+    page.get_by_role("button", name="Weiter").click()
+    expect(page.locator("#notice")).to_have_text("Bitte geben Sie eine Zahl von 18 bis 120 an.")
+    expect(page.get_by_label("Wie alt sind Sie?")).to_be_focused()
+
+
+@pytest.mark.parametrize("page", ["narrow German"], indirect=True)
 def test_the_keyboard_alone_is_enough_on_a_small_german_screen(page: Page, address: str) -> None:
     page.goto(address)
     expect(page.locator("html")).to_have_attribute("lang", "de")

@@ -127,7 +127,7 @@ def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site
 def test_a_video_that_fails_is_said_noted_and_can_be_tried_again(visit, page: Page, site: Site) -> None:
     page.context.route("**/clips/*", lambda route: route.fulfill(status=503))
     come_to_the_practice(visit)
-    expect(page.locator("#notice")).to_contain_text("could not be played", timeout=20_000)
+    expect(page.locator("figure [role=status]")).to_contain_text("could not be played", timeout=20_000)
     page.context.unroute("**/clips/*")
     page.get_by_role("button", name="Try again").click()
     visit.watch()
