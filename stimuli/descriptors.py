@@ -42,6 +42,8 @@ UNITS = {
     "hand_height_m": "m",
     "hand_depth_m": "m",
     "hand_reach_mean_m": "m",
+    "gaze_elevation_mean_rad": "rad",
+    "head_forward_mean_m": "m",
 }
 """Units of the descriptors that have one."""
 

@@ -84,7 +84,8 @@ def _descriptors(manifest: Manifest, stimuli: Sequence[str] | None) -> Table:
 
     clips = manifest.clips if not stimuli else {id_: manifest.clips[id_] for id_ in stimuli}
     names = list(dict.fromkeys(name for clip in clips.values() for name in clip.descriptors))
-    shown = {name: f"{name.removesuffix('_s').removesuffix('_m')} ({UNITS.get(name, '–')})" for name in names}
+    units = {name: UNITS.get(name, "–") for name in names}
+    shown = {name: f"{name.removesuffix(f'_{unit}')} ({unit})" for name, unit in units.items()}
     if stimuli:
         table = Table("", *clips)
         for name, title in shown.items():
