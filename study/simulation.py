@@ -27,6 +27,7 @@ from study.protocol import Pair, Protocol, Stimulus
 from study.protocol.parts import series_of
 from study.questions import Question
 from study.questions.scale import Scale
+from study.sessions import Session
 from study.storage import open_store
 from study.web.app import create_app
 from study.web.credentials import new_credentials, new_password
@@ -34,7 +35,7 @@ from study.web.participant import questions_of, steps_of
 from study.web.server import SOFTWARE, running
 from study.web.site import Clip, Site, hashes
 
-AT_ONCE = 2
+AT_ONCE = 8
 PAGE = re.compile(r'<script type="application/json" id="page">(.*?)</script>', re.DOTALL)
 
 
@@ -103,19 +104,22 @@ def take_part(site: Site, address: str, number: int, shares: Mapping[str, float]
     with httpx.Client(base_url=address, follow_redirects=True, timeout=60, verify=False) as browser:
         browser.post("/start").raise_for_status()
         seen = browser.post("/consent", data={"agreed": "yes", "language": site.protocol.languages[0]})
+        session: Session | None = None
         while found := PAGE.search(seen.raise_for_status().text):
             if rng.random() < manner.drops_out:
                 return
             page = json.loads(found[1])
-            answered = _answer(site, page, manner, rng)
+            session = session or site.store.session(page["participant"])
+            assert session is not None, "a page of the session was shown"
+            answered = _answer(site, session, page, manner, rng)
             browser.post(page["answer_url"], json=answered).raise_for_status()
             seen = browser.get(page["next_url"])
 
 
-def _answer(site: Site, page: dict[str, Any], manner: Manner, rng: random.Random) -> dict[str, Any]:
+def _answer(
+    site: Site, session: Session, page: dict[str, Any], manner: Manner, rng: random.Random
+) -> dict[str, Any]:
     """What the page's scripts would send: answers to its questions, and records of its clips."""
-    session = site.store.session(page["participant"])
-    assert session is not None, "a page of the session was shown"
     step = next(step for step in steps_of(site, session) if step.key == page["step"])
     stimulus = site.protocol.judged[step.trial.stimulus] if step.trial else None
     answers: dict[str, str] = {}
