@@ -60,7 +60,8 @@ def flip_probability(
     magnitudes: np.ndarray[tuple[int], np.dtype[np.int64]], positive_sum: int, alternative: Alternative
 ) -> float:
     """P-value of the sum of those integer magnitudes that got a plus, each with probability ½."""
-    chances = positive_sum_distribution(magnitudes)
+    step = max(1, int(np.gcd.reduce(magnitudes)))  # a coarser grid has the same sums in fewer places
+    chances, positive_sum = positive_sum_distribution(magnitudes // step), positive_sum // step
     at_least, at_most = float(chances[positive_sum:].sum()), float(chances[: positive_sum + 1].sum())
     if alternative == "greater":
         return min(1.0, at_least)
@@ -77,11 +78,10 @@ def positive_sum_distribution(
     chances[0] = 1.0
     reached = 0
     for magnitude in magnitudes[magnitudes > 0]:
-        shifted = np.zeros(reached + magnitude + 1)
-        shifted[: reached + 1] += chances[: reached + 1] / 2
-        shifted[magnitude:] += chances[: reached + 1] / 2
+        half = chances[: reached + 1] / 2
+        chances[: reached + 1] = half
+        chances[magnitude : magnitude + reached + 1] += half
         reached += int(magnitude)
-        chances[: reached + 1] = shifted
     return chances
 
 
