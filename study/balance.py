@@ -31,6 +31,8 @@ class Balance:
         return min(counts), max(counts)
 
     def __str__(self) -> str:
+        if len(next(iter(self.positions.values()))) == 1:
+            return f"each seen {_range(*self.position_range)}"
         positions, follows = _range(*self.position_range), _range(*self.follows_range)
         follow = f", after each other {follows}" if any(self.follows.values()) else ""
         left = f", each side {_range(*self.left_range)}" if self.left else ""

@@ -21,8 +21,8 @@ from study.protocol import Problem, Protocol
 from study.questions.scale import Scale
 from study.specs import specs
 from study.text import Text
-from study.words import count, ordered, stop_rule, tested
 from study.web.language import interface_languages
+from study.words import count, in_brief, tested
 from study.written import Location
 
 Verdict = Literal["good", "mind", "wrong"]
@@ -211,15 +211,18 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("mind", "orders", f"{planned} participants leave the orders uneven; {others} would not")
     else:
         yield Finding(
-            "good", "orders", f"{planned} participants fill them evenly, as every multiple of {whole}"
+            "good", "orders", f"{planned} participants fill them evenly, as does every multiple of {whole}"
         )
     for part in balance(protocol, plans):
-        order = ordered(protocol.parts[part.part].order)
+        order = in_brief(protocol.parts[part.part].order)
         yield Finding("good", part.part, f"{order}: {part}", within="orders")
 
 
 def _stop(protocol: Protocol) -> Iterator[Finding]:
-    yield Finding("good", "stop", f"data are gathered {stop_rule(protocol.participants)}")
+    rules = protocol.participants
+    closes = f"the study closes itself when {rules.planned} have completed it"
+    by_hand = "the experimenter closes the study"
+    yield Finding("good", "stop", closes if rules.stop == "when complete" else by_hand)
 
 
 def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
@@ -229,5 +232,5 @@ def _hypotheses(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("mind", "analysis", "no hypothesis is declared; tests chosen after the data prove less")
     for name, hypothesis in hypotheses.items():
         mirrored = f"; the mirror image of {hypothesis.mirrors}, counted once" if hypothesis.mirrors else ""
-        found = f"{tested(protocol, hypothesis)}{mirrored}{powers.get(name, '')}"
+        found = f"{tested(protocol, hypothesis)}{mirrored}{powers.get(name, '')}".replace("*", "")
         yield Finding("good", name, f"{hypothesis.part}: {found}")

@@ -8,8 +8,8 @@ from typing import Any
 
 from study.balance import balance
 from study.orders import cycle, draw_plan
-from study.preregister import described
 from study.protocol import Part, Protocol
+from study.words import count, ordered
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Design:
         return "\n".join(self._lines())
 
     def _lines(self) -> Iterator[str]:
-        each = f"each {self.videos} videos, about {self.minutes} minutes"
+        each = f"each {count(self.videos, 'video')}, about {count(self.minutes, 'minute')}"
         yield f"{self.study}: {self.planned} participants, {each}"
         if self.cycle > 1:
             even = "even" if self.planned % self.cycle == 0 else "uneven"
@@ -97,7 +97,7 @@ def _part(protocol: Protocol, part: Part, evenness: str) -> PartDesign:
         pages=len(part.stimuli) if part.shown is None else part.shown,
         pairs=[" or ".join(pair) for pair in part.pairs.values()],
         items=[item for question in part.questions for item in question.items],
-        order=described(part.order),
+        order=ordered(part.order),
         only_if={item: list(answers) for item, answers in part.only_if.items()},
         balance=evenness,
     )

@@ -5,10 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from study.preregister import described, exclusions, stated
+from stimuli.principles import PRINCIPLES
 from study.protocol import Part, Protocol
+from study.words import asked, count, exclusions, listed, ordered, shown_if, stated, tested
 
-_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+ESCAPED = {character: f"\\{character}" for character in "&%$#_{}"} | {
+    "\\": r"\textbackslash{}",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "…": r"\dots{}",
+    "“": "``",
+    "”": "''",
+    "–": "--",
+    "≥": r"$\geq$",
+    "≤": r"$\leq$",
+}  # in LaTeX
 
 
 def methods(protocol: Protocol) -> str:
@@ -34,68 +45,66 @@ def methods_latex(protocol: Protocol) -> str:
 
 def _escaped(text: str) -> str:
     """Every character that LaTeX would take for a command, as itself."""
-    text = re.sub(r"([&%$#_{}])", r"\\\1", text)
-    return text.translate(
-        {ord("“"): "``", ord("”"): "''", ord("~"): r"\textasciitilde{}", ord("…"): r"\dots{}"}
-    )
-
-
-def _count(n: int, one: str, many: str | None = None) -> str:
-    number = _NUMBERS[n] if n < len(_NUMBERS) else str(n)
-    return f"{number} {one if n == 1 else many or one + 's'}"
+    return text.translate(str.maketrans(ESCAPED))
 
 
 def _stimuli(protocol: Protocol) -> Iterator[str]:
     video = protocol.video
-    yield f"We demonstrated {_count(len(protocol.gestures), 'gesture')} ({', '.join(protocol.gestures)})"
-    yield f"for the robot {' and '.join(protocol.robots)}, learned each as a Dynamic Movement Primitive"
+    used = {kind for stimulus in protocol.stimuli.values() for kind in stimulus.modulation.model_dump()}
+    principles = [principle.title for kind, principle in PRINCIPLES.items() if kind in used]
+    yield f"We demonstrated {count(len(protocol.gestures), 'gesture')} ({listed(protocol.gestures)})"
+    yield f"for the robot {listed(protocol.robots)}. Each was learned as a Dynamic Movement Primitive"
     yield f"({protocol.learning.n_weights} basis functions, gain {protocol.learning.alpha:g})"
-    yield "and modulated it with animation principles,"
-    yield f"which gave {_count(len(protocol.stimuli), 'stimulus', 'stimuli')}."
-    yield f"They were rendered at {video.size} pixels and {video.fps} frames per second, without sound."
+    yield f"and modulated by {listed(principles)}," if principles else "and replayed,"
+    yield f"which gave {count(len(protocol.stimuli), 'stimulus', 'stimuli')}."
+    width, height = video.pixels
+    yield f"They were rendered with MuJoCo at {width} by {height} pixels and {video.fps} frames per second,"
+    yield "without sound."
 
 
 def _participants(protocol: Protocol) -> Iterator[str]:
-    yield f"We planned for {_count(protocol.participants.planned, 'participant')}; [number] took part"
+    yield f"We planned for {count(protocol.participants.planned, 'participant')}; [number] took part"
     yield "([number] female, [number] male, aged [range] years), recruited by [means]."
     if protocol.ethics:
         yield f"The study was approved by [committee] ({protocol.ethics})."
-    yield from exclusions(protocol.participants.exclude)
+    if left_out := exclusions(protocol.participants.exclude):
+        yield f"As declared beforehand, we left out {left_out}: [number]."
 
 
 def _procedure(protocol: Protocol) -> Iterator[str]:
     videos, minutes = protocol.length
-    yield f"After giving consent, each participant saw {videos} videos in about {minutes} minutes"
-    yield f"in {_count(len(protocol.parts), 'part')}" + (
+    yield f"After giving consent, each participant saw {count(videos, 'video')} in about"
+    yield f"{count(minutes, 'minute')}, in {count(len(protocol.parts), 'part')}" + (
         ", after a page to practise on." if protocol.practice else "."
     )
-    yield "Questions opened after a video had been played in full."
+    yield "The questions of a page opened when its videos had been played in full."
     for part in protocol.parts.values():
+        yield from _part(part)
+
+
+def _part(part: Part) -> Iterator[str]:
+    what = ("pair of videos", "pairs of videos") if part.pairs else ("video", "videos")
+    here = f"In part *{part.id}*" + (f", shown only where {shown_if(part)}," if part.only_if else ",")
+    judged = count(len(part.stimuli), *what)
+    if part.shown is not None:
+        yield f"{here} each participant judged {count(part.shown, *what)} of {judged}, evenly assigned."
+    elif len(part.stimuli) == 1:
+        yield f"{here} {judged} was judged."
+    else:
         after = ", each after its reference" if part.references else ""
-        yield f"In part *{part.id}*, {_count(len(part.stimuli), 'video')} were judged{after};"
-        yield f"the order was {described(part.order)}."
+        yield f"{here} {judged} were judged{after}; their order was {ordered(part.order)}."
 
 
 def _measures(protocol: Protocol) -> Iterator[str]:
     for part in protocol.parts.values():
-        yield from _asked(part)
-
-
-def _asked(part: Part) -> Iterator[str]:
-    for question in part.questions:
-        if question.values is None:
-            answers = "answered freely"
-        else:
-            labels = [label.in_("en") for label in question.values.values()]
-            answers = f"answered on {_count(len(labels), 'option')} from “{labels[0]}” to “{labels[-1]}”"
-        yield f"In part *{part.id}* we asked: “{question.text.in_('en')}” ({answers})."
+        for question in part.questions:
+            yield f"In part *{part.id}* we asked {asked(question)}."
 
 
 def _analysis(protocol: Protocol) -> Iterator[str]:
     for name, hypothesis in protocol.analysis.hypotheses.items():
-        yield f"{name}: {hypothesis.text or stated(hypothesis)}"
-        correction = hypothesis.correction.capitalize()
-        corrected = "" if hypothesis.correction == "none" else f", {correction}-corrected"
-        yield f"The test was: {hypothesis.test}, alternative {hypothesis.alternative}{corrected}."
+        yield f"{name}: {hypothesis.text or stated(protocol, hypothesis)}"
+        mirrored = f", the mirror image of {hypothesis.mirrors}" if hypothesis.mirrors else ""
+        yield f"Its test was: {tested(protocol, hypothesis)}{mirrored}."
     yield f"The level of significance was {protocol.analysis.alpha:g}."
     yield f"The protocol's SHA-256 is {protocol.sha256[:16]}; orders follow from seed {protocol.seed}."

@@ -97,18 +97,21 @@ def _critical(m: int, alpha: float) -> int:
     return int(np.argmax(tails <= alpha)) if tails[-1] <= alpha else m + 1
 
 
-def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
-    n = protocol.participants.planned
-    stimuli = protocol.stimuli_of(hypothesis.part)
-    part = protocol.written_parts[hypothesis.part]
-    items = {item for question in part.ask for item in question.items}
-    judged = protocol.judged_in(hypothesis.part)
+def family_size(protocol: Protocol, hypothesis: Hypothesis) -> int:
+    """How many tests a hypothesis is decided by: one per target, gesture, principle or pair."""
     if hypothesis.compare is None:
-        tests = sum(stimulus.name in items for stimulus in stimuli)
-    elif part.pairs is not None:
-        tests = sum(pair.of(hypothesis.compare) is not None for pair in protocol.pairs_of(hypothesis.part))
-    else:
-        tests = sum(stimulus.condition == hypothesis.compare[0] for stimulus in stimuli)
+        part = protocol.written_parts[hypothesis.part]
+        items = {item for question in part.ask for item in question.items}
+        return sum(stimulus.name in items for stimulus in protocol.stimuli_of(hypothesis.part))
+    if pairs := protocol.pairs_of(hypothesis.part):
+        return sum(pair.of(hypothesis.compare) is not None for pair in pairs)
+    stimuli = protocol.stimuli_of(hypothesis.part)
+    return sum(stimulus.condition == hypothesis.compare[0] for stimulus in stimuli)
+
+
+def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
+    n, part = protocol.participants.planned, protocol.written_parts[hypothesis.part]
+    judged, tests = protocol.judged_in(hypothesis.part), family_size(protocol, hypothesis)
     corrected = hypothesis.correction in {"holm", "bonferroni"}
     alpha = protocol.analysis.alpha / (tests if corrected else 1)
     two_sided = hypothesis.alternative == "two-sided"

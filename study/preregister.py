@@ -7,17 +7,19 @@ from typing import Any
 
 from study.orders import ALGORITHM, cycle
 from study.power import power
-from study.protocol import Exclusions, Hypothesis, Order, Protocol
-from study.questions import Question
+from study.protocol import Part, Protocol
 from study.specs import specs
-
-_METHODS = {
-    "williams": "a Williams design, which balances positions and first-order carry-over",
-    "latin square": "a cyclic Latin square, which balances positions",
-    "shuffled": "a random order of its own for each participant",
-    "fixed": "the order given here, for everybody",
-    "between participants": "one of them per participant, evenly assigned",
-}
+from study.words import (
+    asked,
+    count,
+    exclusions,
+    listed,
+    ordered,
+    shown_if,
+    stated,
+    stop_rule,
+    tested,
+)
 
 
 def preregister(protocol: Protocol) -> str:
@@ -45,81 +47,56 @@ def _hypotheses(protocol: Protocol) -> Iterator[str]:
     if not hypotheses:
         yield "No hypothesis is declared; this study is exploratory."
     for name, hypothesis in hypotheses.items():
-        yield f"- **{name}.** {hypothesis.text or stated(hypothesis)}"
-
-
-def stated(hypothesis: Hypothesis) -> str:
-    """The hypothesis in words, where the protocol gives none."""
-    if hypothesis.compare is None:
-        direction = {"greater": "above", "less": "below", "two-sided": "different from"}[
-            hypothesis.alternative
-        ]
-        return f"In part *{hypothesis.part}*, each stimulus is rated {direction} chance on its target item."
-    first, second = hypothesis.compare
-    outcome = f"“{hypothesis.outcome}” is chosen" if hypothesis.outcome else "ratings are"
-    direction = {"greater": "more", "less": "less", "two-sided": "more or less"}[hypothesis.alternative]
-    often = (
-        f"{direction} often"
-        if hypothesis.outcome
-        else {"greater": "higher", "less": "lower"}.get(hypothesis.alternative, "different")
-    )
-    return f"In part *{hypothesis.part}*, {outcome} {often} for {first} than for {second} intensity."
+        yield f"- **{name}.** {hypothesis.text or stated(protocol, hypothesis)}"
 
 
 def _design(protocol: Protocol) -> Iterator[str]:
     videos, minutes = protocol.length
     yield from ("", "## Design", "")
-    yield f"Each participant sees {videos} videos in about {minutes} minutes."
+    yield f"Each participant sees {count(videos, 'video')} in about {count(minutes, 'minute')}."
     if protocol.practice:
         yield "A practice page comes first; its answers are not analysed."
     for part in protocol.parts.values():
         yield from ("", f"### {part.title.in_('en')} (`{part.id}`)", "")
-        yield f"- Judged: {_ids(part.stimuli)}."
-        if part.only_if:
-            conditions = " and ".join(f"{item} is {' or '.join(a)}" for item, a in part.only_if.items())
-            yield f"- Shown only to participants with these earlier answers: {conditions}."
-        if part.references:
-            yield f"- Each is seen after its reference: {_ids(dict.fromkeys(part.references.values()))}."
-        yield f"- Order: {described(part.order)}."
-        yield from (f"- Asked: {_asked(question)}." for question in part.questions)
+        yield from _part(part)
+    whole = cycle(protocol)
     yield ""
     yield (
-        f"Orders are drawn by `{ALGORITHM}` from seed {protocol.seed} and the participant's place in the "
-        f"design; all are balanced exactly after every {cycle(protocol)} participants. A place left by "
-        "somebody who does not finish is given to the next."
+        f"Orders are drawn by `{ALGORITHM}` from seed {protocol.seed} and the participant's place"
+        + (f"; what is balanced is so exactly after every {whole} participants" if whole > 1 else "")
+        + ". A place left by somebody who does not finish is given to the next."
     )
+
+
+def _part(part: Part) -> Iterator[str]:
+    if part.pairs:
+        pairs = (f"`{first}` or `{second}`" for first, second in part.pairs.values())
+        yield f"- Compared, side by side, each side balanced: {'; '.join(pairs)}."
+    else:
+        yield f"- Judged: {_ids(part.stimuli)}."
+    if part.shown is not None:
+        yield f"- Each participant judges {part.shown} of these {len(part.stimuli)}."
+    if part.only_if:
+        yield f"- Shown only to participants with these earlier answers: {shown_if(part)}."
+    if part.references:
+        yield f"- Each is seen after its reference: {_ids(dict.fromkeys(part.references.values()))}."
+    yield f"- Order: {ordered(part.order)}."
+    yield from (f"- Asked: {asked(question)}." for question in part.questions)
 
 
 def _ids(stimuli: Iterable[str]) -> str:
     return ", ".join(f"`{stimulus}`" for stimulus in stimuli)
 
 
-def _asked(question: Question) -> str:
-    """A question in words: what is asked, of which items, and the possible answers."""
-    items = [text.in_("en") for text in question.items.values() if text != question.text]
-    of = f", of each of {', '.join(items)}" if items else ""
-    values = question.values
-    answers = "free" if values is None else " / ".join(label.in_("en") for label in values.values())
-    return f"“{question.text.in_('en')}” ({question.kind}){of}; answers: {answers}"
-
-
-def described(order: Order) -> str:
-    """An order in words."""
-    if order.blocks:
-        alike, method = order.blocks
-        within = (
-            "their levels in orders that are evenly spread within each participant"
-            if order.levels
-            else f"the stimuli within each by {_METHODS[order.stimuli or 'fixed']}"
-        )
-        return f"in blocks of one {alike}; the blocks by {_METHODS[method]}; {within}"
-    limits = " and ".join(f"at most {n} of the same {alike} in a row" for alike, n in order.max_run.items())
-    return _METHODS[order.stimuli or "fixed"] + (f", with {limits}" if limits else "")
-
-
 def _stimuli(protocol: Protocol) -> Iterator[str]:
     yield from ("", "## Stimuli", "")
-    yield f"Robot: {', '.join(protocol.robots)}. Parameters that are not listed are neutral."
+    video = protocol.video
+    learning = protocol.learning
+    yield f"Robot: {listed(protocol.robots)}. Gestures are learned as Dynamic Movement Primitives"
+    yield f"({learning.n_weights} basis functions, gain {learning.alpha:g}) and modulated by the parameters"
+    yield "below, angles in radians and times in seconds; what is not listed is neutral."
+    yield f"Clips are rendered at {video.size} pixels and {video.fps} frames per second, without sound."
+    yield "The hash is that of all a clip is made from."
     yield from ("", "| id | gesture | parameters | SHA-256 |", "|---|---|---|---|")
     for stimulus_id, spec in specs(protocol).items():
         modulation = spec.modulation.model_dump(mode="json")
@@ -143,51 +120,29 @@ def _parameters(values: Mapping[str, Any]) -> str:
 
 
 def _participants(protocol: Protocol) -> Iterator[str]:
+    rules = protocol.participants
     yield from ("", "## Participants", "")
-    yield (
-        f"Data are gathered until {protocol.participants.planned} participants have completed the study, "
-        "and no tests are run before that."
-    )
-    for rule in exclusions(protocol.participants.exclude):
-        yield f"- {rule}"
+    yield f"Data are gathered {stop_rule(rules)}."
+    if not rules.peeking:
+        yield "No test is run before as many as planned have completed."
+    if left_out := exclusions(rules.exclude):
+        yield f"Left out of all tests are {left_out}."
     findings = power(protocol)
     if findings:
-        yield ""
-        yield "Sensitivity:"
-        yield ""
-        for found in findings:
-            strictest = f"the strictest of {found.tests} tests, at alpha = {found.alpha:.4g}"
-            yield f"- {found.hypothesis}: {found} in {strictest}."
-
-
-def exclusions(rules: Exclusions) -> Iterator[str]:
-    """The rules of exclusion in words."""
-    if rules.incomplete:
-        yield "Left out: participants who do not finish."
-    if rules.faster_than is not None:
-        yield f"Left out: participants whose median time per answer is below {rules.faster_than:g} s."
-    if rules.failed_attention is not None:
-        yield f"Left out: participants who fail {rules.failed_attention} or more attention checks."
-    if rules.straight_lining:
-        yield "Left out: participants who give the same answer to every item of a part."
+        yield from ("", "What so many can find:", "")
+    for found in findings:
+        strictest = f" in the strictest of {found.tests} tests" if found.tests > 1 else ""
+        yield f"- {found.hypothesis}: {found}{strictest}, at alpha = {found.alpha:.4g}."
 
 
 def _analysis(protocol: Protocol) -> Iterator[str]:
-    yield from ("", "## Analysis", "", f"The level of significance is {protocol.analysis.alpha:g}.", "")
+    yield from ("", "## Analysis", "", f"The level of significance is {protocol.analysis.alpha:g}.")
+    yield "A missing answer is left out of each test it concerns; paired tests use complete pairs."
+    yield "Where a t-test is undefined, because nobody differs, its exact counterpart decides."
+    yield ""
     for name, hypothesis in protocol.analysis.hypotheses.items():
-        compared = (
-            f"of the target ratings against chance ({hypothesis.against or 'midpoint'})"
-            if hypothesis.compare is None
-            else " against ".join(hypothesis.compare)
-        )
-        corrected = (
-            "no correction for multiple tests"
-            if hypothesis.correction == "none"
-            else f"{hypothesis.correction.capitalize()} correction over the tests of this hypothesis"
-        )
         mirrored = ""
         if hypothesis.mirrors:
             mirrored = f" It is {hypothesis.mirrors} seen from the other side, and is not counted again."
-        tested = f"{hypothesis.test} test {compared}, {hypothesis.alternative}"
-        yield f"- **{name}**: {tested}; {corrected}.{mirrored}"
+        yield f"- **{name}**: {tested(protocol, hypothesis)}.{mirrored}"
     yield from ("", "Anything beyond this will be reported as exploratory.")

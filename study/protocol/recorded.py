@@ -46,7 +46,7 @@ def recorded(protocol: Protocol) -> Iterator[Contradiction]:
     """Names that files are said to call otherwise, but the study does not have."""
     said, here = protocol.analysis.responses, ("analysis", "responses")
     questions = {part: written.ask for part, written in protocol.written_parts.items()}
-    stimuli = [stimulus for part in protocol.parts.values() for stimulus in part.stimuli]
+    stimuli = [judged.id for part in protocol.written_parts for judged in protocol.judged_in(part)]
     items = {item: question for asked in questions.values() for question in asked for item in question.items}
     answers = {f"{stimulus}.{item}" for stimulus in stimuli for item in items}
     columns = [column for column in said.columns if column not in answers]

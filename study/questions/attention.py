@@ -38,6 +38,11 @@ class Attention(Choice):
             raise wrong_at(("expected",), message, self.expected)
         return self
 
+    @property
+    def answering(self) -> str:
+        """The options, and which was asked for."""
+        return f"{super().answering}; an attention check, passed by “{self.options[self.expected].in_('en')}”"
+
     def asked_at(self, trial: int) -> bool:
         """Whether it stands on the page of this trial, counted from 1; 0 is practice."""
         return self.at is None or trial in self.at

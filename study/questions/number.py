@@ -28,6 +28,13 @@ class Number(Question):
         """The one number."""
         return {self.item: self.text}
 
+    @property
+    def answering(self) -> str:
+        """Which numbers."""
+        least = "" if self.least is None else f" from {self.least:g}"
+        most = "" if self.most is None else f" to {self.most:g}"
+        return f"by a {'whole ' if self.whole else ''}number{least}{most}"
+
     def _check_value(self, item: str, answer: str) -> None:
         if not re.fullmatch(r"-?[0-9]{1,15}" if self.whole else r"-?[0-9]{1,15}(\.[0-9]{1,15})?", answer):
             raise AnswerError(f"{item}: {answer!r} is not a {'whole ' if self.whole else ''}number")

@@ -29,6 +29,11 @@ class Prefer(Question):
         """The stimuli one can choose among: of a page its two, of a part all."""
         return {stimulus: Text(stimulus) for stimulus in self._stimuli}
 
+    @property
+    def answering(self) -> str:
+        """Which of the two."""
+        return "by choosing one of the two videos, which stood left and right equally often"
+
     def among(self, stimuli: Sequence[str]) -> Self:
         """The same question about these stimuli, on a page the left one and the right one."""
         question = self.model_copy()

@@ -88,6 +88,14 @@ class Question(Written, ABC):
         return ((),)
 
     @property
+    def answering(self) -> str:
+        """How it is answered, in English words: “by a or b”."""
+        if self.values is None:
+            return "in free words"
+        *others, last = (f"“{label.in_('en')}”" for label in self.values.values())
+        return f"by {', '.join(others)} or {last}" if others else f"by {last}"
+
+    @property
     def template(self) -> str:
         """Name of the HTML file beside this kind's Python file."""
         return f"{self.kind}.html"

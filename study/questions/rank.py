@@ -35,6 +35,11 @@ class Rank(Question):
         """Whether the rows are shuffled for each participant."""
         return self.item_order == "shuffled"
 
+    @property
+    def answering(self) -> str:
+        """The ranks."""
+        return f"by ranks from 1 to {len(self.items)}, each given once"
+
     def check(self, answers: Mapping[str, str]) -> None:
         """Each rank once; a question that is left out is left out whole."""
         super().check(answers)

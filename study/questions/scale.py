@@ -91,6 +91,14 @@ class Scale(Question):
                 given.setdefault(series, []).append(int(answers[item]))
         return {series: sum(points) / len(points) for series, points in given.items()}
 
+    @property
+    def answering(self) -> str:
+        """The numbers, and what the ends are called."""
+        lowest, highest = (f"{self.values[str(end)].in_('en')} ({end})" for end in self.scale)
+        if not self.labels:
+            lowest, highest = (str(end) for end in self.scale)
+        return f"on {self.scale[1] - self.scale[0] + 1} points from {lowest} to {highest}"
+
 
 class Rating(Scale):
     """Items between two labelled ends, as points or as a line."""

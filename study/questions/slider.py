@@ -16,3 +16,8 @@ class Slider(Rating):
     def scale(self) -> tuple[int, int]:
         """The left and the right end."""
         return 0, 100
+
+    @property
+    def answering(self) -> str:
+        """The line's ends."""
+        return f"on a line from {self.ends[0].in_('en')} (0) to {self.ends[1].in_('en')} (100)"

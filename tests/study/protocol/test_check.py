@@ -15,8 +15,28 @@ def found(report, about):
 def test_the_papers_protocol_is_one_screen():
     report = check(load_protocol(PAPER))
     assert len(str(report).splitlines()) <= 24
-    assert found(report, "orders").message == "balanced for 36 participants (a multiple of 6)"
+    assert found(report, "orders").message == "36 participants fill them evenly, as does every multiple of 6"
+    assert found(report, "recognition").within == "orders"
+    assert found(report, "stop").message == "the study closes itself when 36 have completed it"
+    assert "against 3, the middle of the scale from 1 to 5; Holm correction over six tests" in (
+        found(report, "H1").message
+    )
+    assert max(map(len, str(report).splitlines())) <= 110
+    assert all(entry["about"] == entry["about"].strip() for entry in report.as_json()["findings"])
     assert found(report, "texts").verdict == "good"
+
+
+def test_orders_that_need_no_number_say_so():
+    report = check(load_protocol(PAPER.parent / "online"))
+    assert found(report, "orders").message.startswith("any number of participants will do")
+    assert found(report, "experts").message == "fixed: each seen 120 times"
+
+
+def test_a_translation_of_our_own_is_to_be_minded(load, written):
+    written["parts"]["recognition"]["ask"].append({"rate": {"set": "rosas warmth"}})
+    (minded,) = (one for one in check(load(written)).findings if "our own translation" in one.message)
+    assert (minded.verdict, minded.about) == ("mind", "texts")
+    assert minded.message == "rosas warmth in de is our own translation, unpublished and not validated"
 
 
 def test_uneven_numbers_and_missing_texts_and_gestures_are_said(load, written):
