@@ -49,6 +49,7 @@ class Video(Written):
     lead_in: Seconds = 0.5
     hold: Seconds = 0.5
     replays: int | None = Field(None, ge=0)  # of a clip watched in full; any number unless told
+    description: Text | None = None  # read out to who cannot see the clips; must not tell the condition
 
     @field_validator("size")
     @classmethod

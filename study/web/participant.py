@@ -269,6 +269,10 @@ def _page(
     clips: dict[str, Clip] = {}
     if step.trial:
         clips = site.clips_on(step.trial)
+        described = site.protocol.video.description
+        values["description"] = (
+            described.in_(language) if described else say("A robot makes a gesture. The video has no sound.")
+        )
         one = say("Watch the video to its end, then answer.")
         values["gate"] = one if len(clips) == 1 else say("Watch both videos to their ends, then answer.")
     elif step.kind == "instructions":

@@ -15,13 +15,14 @@ from study.web.server import running
 from study.web.site import Site
 
 pytestmark = pytest.mark.xdist_group("browser")
+VIDEO = "{replays: 1, description: {en: A robot moves its arm., de: Ein Roboter bewegt den Arm.}}"
 
 
 @pytest.fixture
 def address(site: Site) -> Iterator[str]:
     """The study, with one replay of each clip."""
     file = site.protocol.path
-    written = file.read_text("utf-8").replace("seed: 1", "seed: 1\nvideo: {replays: 1}")
+    written = file.read_text("utf-8").replace("seed: 1", f"seed: 1\nvideo: {VIDEO}")
     file.write_text(written, encoding="utf-8")
     with running(create_app(replace(site, protocol=load_protocol(file)))) as url:
         yield url
@@ -45,6 +46,7 @@ def test_every_play_is_on_record_and_replays_end_where_the_protocol_says(
     visit, page: Page, site: Site
 ) -> None:
     come_to_the_practice(visit)
+    expect(page.get_by_label("A robot moves its arm.")).to_be_visible()
     visit.watch()
     page.get_by_role("button", name="Watch again").click()
     expect(page.locator("figure [role=status]")).to_have_text("Watched as often as is possible here")
