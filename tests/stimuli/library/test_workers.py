@@ -22,17 +22,30 @@ from stimuli.workers import film_here
 
 MakeSpec = Callable[..., StimulusSpec]
 
-DIES_ONCE = """
+ONCE = """
 __import__("stimuli.robots.pepper", fromlist=["build"]).build()
-if __import__("os").path.exists({mark!r}) else (__import__("os").mkdir({mark!r}), __import__("os")._exit(9))
+if __import__("os").path.exists({mark!r}) else (__import__("os").mkdir({mark!r}), {fails})
 """
 
 
+def failing_once(robot: Robot, mark: Path, fails: str) -> Robot:
+    """The robot whose body cannot be built the first time: what `fails` says comes instead."""
+    expression = " ".join(ONCE.format(mark=str(mark), fails=fails).split("\n"))
+    return dataclasses.replace(robot, build=partial(eval, expression.strip()))
+
+
 def test_a_clip_whose_worker_died_is_made_by_another(spec: MakeSpec, pepper: Robot, tmp_path: Path) -> None:
-    expression = " ".join(DIES_ONCE.format(mark=str(tmp_path / "mark")).split("\n"))
-    frail = dataclasses.replace(pepper, build=partial(eval, expression.strip()))
+    frail = failing_once(pepper, tmp_path / "mark", '__import__("os")._exit(9)')
     manifest = render_missing([spec("frail")], {"pepper": frail}, tmp_path, workers=1)
     assert (tmp_path / manifest.clips["frail"].file).is_file()
+
+
+def test_a_clip_whose_worker_hung_is_made_by_another(spec: MakeSpec, pepper: Robot, tmp_path: Path) -> None:
+    stuck = failing_once(pepper, tmp_path / "mark", '__import__("time").sleep(600)')
+    filmed = film_here([spec("stuck")], {"pepper": stuck}, tmp_path, workers=1, silence_s=20)
+    (clip,) = [clip for clip, _ in filmed if clip]
+    assert (tmp_path / "mark").is_dir()
+    assert (tmp_path / clip.file).is_file()
 
 
 def test_a_stimulus_whose_worker_dies_each_time_is_named_and_the_others_are_made(
@@ -91,6 +104,23 @@ def test_ctrl_c_leaves_nothing_half_written(
     running.send_signal(signal.SIGINT)
     error = running.communicate(timeout=60)[1]
     assert error.strip().splitlines()[-1] == "KeyboardInterrupt"
+    assert list((tmp_path / "clips").iterdir()) == []
+
+
+def test_a_killed_run_takes_its_workers_along_and_leaves_nothing_half_written(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    running = run()
+    deadline = time.monotonic() + 60
+    while not list(tmp_path.glob("clips/.*.part.mp4")) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    (partial_file,) = tmp_path.glob("clips/.*.part.mp4")
+    running.kill()
+    running.communicate(timeout=60)
+    worker = Path("/proc", partial_file.name.split(".")[2])
+    while worker.exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not worker.exists()
     assert list((tmp_path / "clips").iterdir()) == []
 
 
