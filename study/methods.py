@@ -45,7 +45,7 @@ def methods_latex(protocol: Protocol) -> str:
 
 def _escaped(text: str) -> str:
     """Every character that LaTeX would take for a command, as itself."""
-    return text.translate(str.maketrans(ESCAPED))
+    return text.translate({ord(character): latex for character, latex in ESCAPED.items()})
 
 
 def _stimuli(protocol: Protocol) -> Iterator[str]:
