@@ -38,7 +38,7 @@ def attractor_at(course: Course, share: float) -> FloatArray:
     at = (1.0 - x) * (len(causes) - 2)  # counted in centres
     near = slice(max(0, math.ceil(at) - _REACH), min(len(causes) - 1, math.floor(at) + _REACH + 1))
     bumps = np.exp(-np.square(_COUNT[near] - at))
-    pull = np.dot(bumps, causes[near]) * (x / bumps.sum() / course.rate**2)
+    pull = np.dot(bumps, causes[near]) * (x / sum(bumps.tolist()) / course.rate**2)
     pull += causes[-1]
     return pull
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -34,10 +34,16 @@ class Step:
     before: FloatArray  # (2,)
     after: FloatArray  # (2,)
 
+    @cached_property
+    def matrix(self) -> FloatArray:
+        """`across`, `before` and `after` in one matrix, (2, 4)."""
+        return np.column_stack([self.across, self.before, self.after])
+
     def taken(self, state: FloatArray, u_0: FloatArray, u_1: FloatArray) -> FloatArray:
         """States (2, m) after this step of springs chasing what goes from u_0 to u_1, (m,) each."""
-        driven = np.multiply.outer(self.before, u_0) + np.multiply.outer(self.after, u_1)
-        made: FloatArray = np.dot(self.across, state) + driven
+        begin = np.empty((4, len(u_0)))
+        begin[:2], begin[2], begin[3] = state, u_0, u_1
+        made: FloatArray = np.dot(self.matrix, begin)
         return made
 
 
