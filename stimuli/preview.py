@@ -29,13 +29,13 @@ def draw_preview(
 
     That is a poster and the joints' curves of each, and, of two or more, a clip of them side by side.
     """
+    if not manifest.clips:
+        raise InputError(f"{folder}: there are no clips yet. `study render` makes them.")
     for id_ in stimuli:
         if id_ not in manifest.clips:
             near = difflib.get_close_matches(id_, manifest.clips, 1)
             hint = f" Did you mean {near[0]}?" if near else f" Known: {', '.join(manifest.clips)}."
             raise InputError(f"{folder}: there is no clip of {id_!r}.{hint}")
-    if not manifest.clips:
-        raise InputError(f"{folder}: there are no clips yet. `study render` makes them.")
     out.mkdir(parents=True, exist_ok=True)
     name = "-".join(stimuli) or "contact_sheet"
     drawn = [
