@@ -54,7 +54,11 @@ def rows() -> Iterator[Row]:
 
 
 def _said(tally: Tally) -> str:
-    return f"{tally.per_s:.0f}/s, p99 {tally.percentile_ms(0.99):.0f} ms, {tally.errors} errors"
+    client = tally.own_cpu_s / tally.elapsed_s
+    return (
+        f"{tally.per_s:.0f}/s, p99 {tally.percentile_ms(0.99):.0f} ms, {tally.errors} errors, "
+        f"client {client:.0%} of a core"
+    )
 
 
 def _ours(participants: int) -> Tally:
@@ -85,12 +89,12 @@ def _killed() -> tuple[int, int, int]:
         for kill in range(KILLS):
             with study_server.study(Path(folder)) as (process, address):
 
-                async def until_it_dies(address: str = address, wait_s: float = 0.5 + 0.05 * kill) -> None:
+                async def until_it_dies(address: str = address, wait_s: float = 0.2 + 0.05 * kill) -> None:
                     async def visit(_: int, tally: Tally) -> None:
                         await study_server.take_part(address, tally, acknowledged.append)
 
-                    asyncio.get_running_loop().call_later(wait_s, process.kill)
-                    await crowd(20, wait_s + 2, visit)
+                    later = asyncio.get_running_loop().call_later
+                    await crowd(20, wait_s + 2, visit, once_in=lambda: later(wait_s, process.kill))
 
                 asyncio.run(until_it_dies())
         store = open_store(f"sqlite:///{folder}/study.db")

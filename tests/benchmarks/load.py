@@ -94,6 +94,7 @@ class Tally:
     latencies_s: list[float] = field(default_factory=list)  # of every acknowledged answer
     errors: int = 0
     elapsed_s: float = 0.0
+    own_cpu_s: float = 0.0  # of the crowd itself, which must not be what is measured
 
     @property
     def per_s(self) -> float:
@@ -117,17 +118,28 @@ class Tally:
         return answer
 
 
-async def crowd(count: int, seconds: float, visit: Callable[[int, Tally], Awaitable[None]]) -> Tally:
+async def crowd(
+    count: int,
+    seconds: float,
+    visit: Callable[[int, Tally], Awaitable[None]],
+    *,
+    once_in: Callable[[], object] = lambda: None,
+) -> Tally:
     """Let so many take part side by side, without thinking time, for so long or until all are done.
 
-    A visit waits at `tally.door` once, before its first answer.
+    A visit waits at `tally.door` once, before its first answer; `once_in` is called when everybody is there.
     """
     tally = Tally(asyncio.Barrier(count + 1))
-    visits = [asyncio.create_task(visit(number, tally)) for number in range(count)]
-    await tally.door.wait()
-    start = time.perf_counter()
+    visits = [asyncio.ensure_future(visit(number, tally)) for number in range(count)]
+    everybody = asyncio.ensure_future(tally.door.wait())
+    await asyncio.wait([everybody, *visits], return_when=asyncio.FIRST_COMPLETED)
+    for one in visits:
+        if one.done():  # without ever coming in
+            one.result()
+    once_in()
+    start, own = time.perf_counter(), time.process_time()
     _, running = await asyncio.wait(visits, timeout=seconds)
-    tally.elapsed_s = time.perf_counter() - start
+    tally.elapsed_s, tally.own_cpu_s = time.perf_counter() - start, time.process_time() - own
     for one in running:
         one.cancel()
     results = await asyncio.gather(*visits, return_exceptions=True)

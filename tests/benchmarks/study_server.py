@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
-from uuid import uuid4
+from random import getrandbits
+from uuid import UUID
 
 from tests.benchmarks.load import Browser, Tally
 
@@ -86,7 +87,7 @@ def _answered(page: dict[str, object], html: str) -> dict[str, object]:
     clips = page["clips"]
     assert isinstance(clips, list)
     return {
-        "id": str(uuid4()),
+        "id": str(UUID(int=getrandbits(128), version=4)),
         "step": page["step"],
         "answers": [
             {"item": item, "value": value, "rt_ms": 1234.5, "changes": 0}

@@ -2,12 +2,14 @@ from __future__ import annotations
 
 import csv
 import json
+import random
 from collections import Counter
 from pathlib import Path
+from statistics import fmean
 
 from study.export import guarded
 from study.protocol import Protocol
-from study.simulation import MANNERS, rehearse, target_of
+from study.simulation import MANNERS, choose, rehearse, target_of
 
 
 def test_a_rehearsal_leaves_a_whole_table_that_nobody_takes_for_data(
@@ -46,6 +48,22 @@ def test_targets_are_what_the_hypotheses_expect(protocol: Protocol) -> None:
         for stimulus in part.stimuli:
             targets[stimulus] = target_of(protocol, protocol.stimuli[stimulus], part.questions[0])
     assert targets == {"joy": "joy", "sadness": "sadness", "time_low": "lower", "time_high": "higher"}
+
+
+def test_each_manner_answers_as_its_name_says(protocol: Protocol) -> None:
+    stimulus = protocol.judged["joy"]
+    [question] = protocol.parts["recognition"].questions
+
+    def mean(manner: str, item: str) -> float:
+        rng = random.Random(1)
+        answers = [choose(protocol, stimulus, question, MANNERS[manner], rng)[item] for _ in range(300)]
+        return fmean(map(float, answers))
+
+    for attentive in ("attentive", "dropout"):
+        assert mean(attentive, "joy") > mean("unsure", "joy") + 0.2 > mean("unsure", "fear") + 0.4
+    assert abs(mean("random clicker", "joy") - 3) < 0.2
+    assert mean("yea-sayer", "joy") == mean("yea-sayer", "fear") == 5
+    assert max(MANNERS, key=lambda name: -MANNERS[name].rt_s) == "speeder"
 
 
 def test_those_who_drop_out_leave_what_they_answered(protocol: Protocol, tmp_path: Path) -> None:
