@@ -15,6 +15,7 @@ const answers = new Answers(form);
 const opened = performance.now();
 let players = [];
 enliven(form);
+document.getElementById("late").remove();
 
 const outbox = new Outbox(page.participant, page.answer_url, (state) => {
   if (state === "waiting") say(page.texts.offline);

@@ -133,6 +133,7 @@ def address(site: Site) -> Iterator[str]:
         yield url
 
 
+PATIENCE_MS = 20_000  # with other tests on the same machine
 LOOKS = {
     "wide": {"locale": "en-GB", "viewport": {"width": 1280, "height": 800}},
     "narrow": {"locale": "en-GB", "viewport": {"width": 390, "height": 844}},
@@ -143,6 +144,7 @@ LOOKS = {
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Debian's Chromium."""
+    expect.set_options(timeout=PATIENCE_MS)
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(
             executable_path=shutil.which("chromium"),
@@ -159,7 +161,7 @@ def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
     page = context.new_page()
     faults: list[str] = []
     page.on("pageerror", lambda error: faults.append(str(error)))
-    page.set_default_timeout(15_000)
+    page.set_default_timeout(PATIENCE_MS)
     yield page
     context.close()
     assert faults == []

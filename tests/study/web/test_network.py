@@ -77,3 +77,16 @@ def test_an_acknowledgement_that_got_lost_does_no_harm(visit, page: Page, site: 
     visit.press_continue()
     expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
     assert len(stored(site)) == 1
+
+
+def test_a_page_whose_script_does_not_come_says_so(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    late = page.get_by_text("This page has not loaded completely")
+    expect(late).to_have_count(0)
+    page.context.route("**/page.js", lambda route: route.abort())
+    visit.press_continue()
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    expect(late).to_be_visible()
+    page.context.unroute("**/page.js")
+    page.reload()
+    expect(page.locator("#continue")).to_be_enabled()

@@ -119,7 +119,7 @@ def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site
 
     page.context.route("**/clips/*", only_streams)
     come_to_the_practice(visit)
-    expect(page.get_by_role("button", name="Play")).to_be_enabled(timeout=20_000)
+    expect(page.get_by_role("button", name="Play")).to_be_enabled()
     visit.watch()
     assert view_sent(visit, site).streamed
     assert sum(site.store.event_counts("video_retried").values()) == 4
@@ -129,7 +129,7 @@ def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site
 def test_a_video_that_fails_is_said_noted_and_can_be_tried_again(visit, page: Page, site: Site) -> None:
     page.context.route("**/clips/*", lambda route: route.fulfill(status=503))
     come_to_the_practice(visit)
-    expect(page.locator("figure [role=status]")).to_contain_text("could not be played", timeout=20_000)
+    expect(page.locator("figure [role=status]")).to_contain_text("could not be played")
     page.context.unroute("**/clips/*")
     page.get_by_role("button", name="Try again").click()
     visit.watch()
