@@ -166,6 +166,8 @@ def _lacking(protocol: Protocol, location: Location, languages: tuple[str, ...])
 
 def _all_texts(protocol: Protocol) -> Iterator[tuple[Location, Text]]:
     yield ("title",), protocol.title
+    if protocol.video.description:
+        yield ("video", "description"), protocol.video.description
     for name, text in protocol.texts:
         yield ("texts", name), text
     for at, question in enumerate(protocol.demographics):
