@@ -57,7 +57,7 @@ class Browser:
         self, method: str, path: str, body: bytes = b"", headers: dict[str, str] | None = None
     ) -> Answer:
         self.path = path
-        if self._streams is None:
+        if self._streams is None or self._streams[0].at_eof():  # servers hang up on who is quiet
             host, _, port = self._host.partition(":")
             self._streams = await asyncio.open_connection(host, int(port), limit=2**20)
         reader, writer = self._streams
