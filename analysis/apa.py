@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
 
 from analysis.statistics.t_test import Alternative, TTest
 
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SIDES: dict[Alternative, str] = {
     "greater": "one-sided",
     "less": "one-sided",
@@ -39,11 +41,31 @@ def probability(p: float | None, alpha: float = 0.05) -> str:
     return f"= {bounded(p, 4 if abs(p - alpha) < 0.0005 else 3)}"
 
 
+def significance(alpha: float) -> str:
+    """A level of significance with all its digits: .05, .0167."""
+    return f"{alpha:.4f}".rstrip("0").removeprefix("0")
+
+
 def degrees(df: float | None) -> str:
     """Degrees of freedom: whole where they are, else to two decimals."""
     if df is None:
         return "–"
     return str(round(df)) if abs(df - round(df)) < 1e-9 else f"{df:.2f}"
+
+
+def unbroken(sentence: str) -> str:
+    """A sentence that is not broken within "p = .014"."""
+    return re.sub(r" ([=<>]) ", "\u00a0\\1\u00a0", sentence)
+
+
+def factor(value: float | None) -> str:
+    """A Bayes factor: 18.69, 2.0 × 10⁶."""
+    if value is None:
+        return "–"
+    if 0.001 <= value < 1000:
+        return number(value)
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{mantissa} × 10{str(int(exponent)).translate(RAISED)}"
 
 
 def interval(limits: tuple[float | None, float | None] | None, decimals: int = 2) -> str:

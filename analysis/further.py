@@ -143,7 +143,8 @@ def _of_levels(outcome: Levels, principle: str) -> OfLevels:
     bayes = jzs_bayes_factor(one.student if one.paired.t is None else one.paired)
     values = answers.on(outcome.comparison.item, outcome.comparison.outcome)[:, stimuli]
     if outcome.comparison.outcome is None:
-        return OfLevels(bayes, None, None, _ordinal(values, np.array([True, False])))
+        ordinal = _ordinal(values, np.array([True, False])) if outcome.within else None
+        return OfLevels(bayes, None, None, ordinal)
     if len(answers.participants) > MOST:
         return OfLevels(bayes, None, None, None)
     rows = _rows(values, np.array([1.0, 0.0]))

@@ -58,11 +58,3 @@ GLOSSARY = {
     "Cronbach": "Cronbach's α of the items of a scale, over all clips judged, with Feldt's interval. "
     "R: psych::alpha",
 }
-
-THREATS = (
-    "Each clip is judged right after its reference, so contrast with it is part of every judgement.",
-    "The choice is forced: there is no answer “same”, so indifference looks like guessing.",
-    "Few gestures were shown. A gesture is one draw from all gestures; statistics alone do not carry the "
-    "results over to others.",
-    "One question per judgement is a Likert item, not a scale; t-tests treat its points as equally spaced.",
-)

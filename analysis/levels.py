@@ -124,9 +124,10 @@ class _Tests:
 
     def deciding(self, test: str) -> tuple[str, float | None, str | None]:
         """The declared test's name and p, or the exact one where that is undefined, and why."""
-        declared = {"independent t": self.student, "paired t": self.paired}.get(test)
-        if declared is None and test == "wilcoxon":
-            return test, self.wilcoxon.p, self.wilcoxon.reason
+        testing: dict[str, TTest | Wilcoxon] = {
+            "independent t": self.student, "paired t": self.paired, "wilcoxon": self.wilcoxon,
+        }  # fmt: skip
+        declared = testing.get(test)
         if declared is None:
             return self._exact_paired()
         if declared.p is not None:
@@ -138,10 +139,11 @@ class _Tests:
 
     def _exact_paired(self) -> tuple[str, float | None, str | None]:
         if self.choices is None:
-            return "exact sign flip", self.sign_flip.p, None
+            return "exact sign flip", self.sign_flip.p, self.sign_flip.reason
         one_sided = self.sign_flip.alternative != "two-sided"
         exact = self.choices.mcnemar
-        return "McNemar's exact", exact.p_one_sided if one_sided else exact.p_two_sided, None
+        p = exact.p_one_sided if one_sided else exact.p_two_sided
+        return "McNemar's exact", p, exact.reason if p is None else None
 
     def result(self, name: str, verdict: Verdict) -> Compared:
         """The tests as a value."""

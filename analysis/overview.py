@@ -26,7 +26,7 @@ def draw_flow(flow: Flow) -> Drawing:
     return Drawing(
         name="participants",
         paint=partial(_paint_flow, flow=flow, left_out=left_out),
-        height_in=1.15 + 0.13 * len(left_out),
+        height_in=1.3 + 0.13 * len(left_out),
         caption="Participants from their first answer to the analysis, by the rules declared beforehand.",
         alt=f"{flow.answered} answered; {len(flow.excluded)} left out ({'; '.join(left_out) or 'no rules'}); "
         f"{flow.analysed} analysed.",
@@ -43,8 +43,8 @@ def _paint_flow(figure: FigureBase, *, flow: Flow, left_out: list[str]) -> None:
     axes.annotate("", (0.4, 0.5), (0.2, 0.5), arrowprops=arrow)
     reasons = "".join(f"\n{line}" for line in left_out)
     for x, y, text, align in (
-        (0.2, 0.88, f"Answered\nn = {flow.answered}", "center"),
-        (0.2, 0.12, f"Analysed\nn = {flow.analysed}", "center"),
+        (0.2, 0.82, f"Answered\nn = {flow.answered}", "center"),
+        (0.2, 0.18, f"Analysed\nn = {flow.analysed}", "center"),
         (0.42, 0.5, f"Left out, n = {len(flow.excluded)}{reasons}", "left"),
     ):
         axes.text(

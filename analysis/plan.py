@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 
 TAKEN = frozenset({
-    "study", "data", "software", "alpha", "participants", "missing", "hypotheses", "further", "effects",
-    "scales", "bootstrap_seed", "before_exclusions",
+    "study", "data", "software", "seed", "alpha", "participants", "missing", "hypotheses", "further",
+    "described", "effects", "scales", "bootstrap_seed", "before_exclusions",
 })  # fmt: skip
 """Names that stand in results.json or among the figures for something else than a hypothesis."""
 
@@ -58,6 +58,11 @@ class Levels:
     judging: Judging
     comparison: Comparison
     results: Mapping[str, Compared]  # by principle
+
+    @property
+    def within(self) -> bool:
+        """Whether some participants judged both levels."""
+        return any(one.paired.n[0] > 0 for one in self.results.values())
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from analysis import apa
 from analysis.drawing import ALARM, FAINT, Drawing
-from analysis.glossary import THREATS
 from analysis.pages import Pages
 from analysis.plan import Levels, Outcome, Targets
 from analysis.results import Results
+from analysis.threats import threats
 from analysis.words import claim, labels_of, method, sentences, summary, warnings
 
 if TYPE_CHECKING:
@@ -20,13 +20,14 @@ if TYPE_CHECKING:
 TARGET_HEAD = ("Clip", "N", "M", "SD", "t", "df", "p", "p adj.", "d [95% CI]")
 TARGET_WIDTHS = (0.15, 0.06, 0.08, 0.08, 0.1, 0.08, 0.1, 0.11, 0.24)
 LEVEL_HEAD = ("Principle", "shares", "t", "df", "p", "p adj.", "d [95% CI]", "McNemar p", "diff. [95% CI]")
+RATING_HEAD = ("Rating", "means", "t", "df", "p", "p adj.", "d [95% CI]", "Welch p", "diff. [95% CI]")
 LEVEL_WIDTHS = (0.1, 0.11, 0.07, 0.06, 0.08, 0.08, 0.18, 0.13, 0.19)
 
 
 def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) -> None:
     """Write the report's main story as A4 pages."""
     findings, labels = results.findings, labels_of(protocol)
-    title = f"{protocol.title.in_('en')}: results"
+    title = f"Results: {protocol.title.in_('en')}"
     hashed = results.provenance.responses_sha256[:12]
     with Pages(path, title, f"{protocol.study}, responses {hashed}", findings.responses.note) as pages:
         pages.heading(title, size=17)
@@ -44,7 +45,7 @@ def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mappin
             pages.heading("Effect sizes")
             pages.draw(drawings["effects"])
         pages.heading("What the design cannot tell")
-        for threat in THREATS:
+        for threat in threats(protocol):
             pages.write(f"– {threat}")
         pages.heading("Where the numbers come from")
         pages.write(f"Responses SHA-256 {results.provenance.responses_sha256}", size=7.5)
@@ -65,10 +66,13 @@ def _outcome(
         pages.draw(drawings[outcome.name])
         if isinstance(outcome, Targets):
             pages.tabulate(TARGET_HEAD, _target_rows(outcome, labels), TARGET_WIDTHS)
-            pages.write("What other definitions of chance say, adjusted p:")
+            pages.write(
+                f"By other definitions of chance, {outcome.judging.adjustment} p († another decision):"
+            )
             pages.tabulate(*_definitions(outcome, labels))
         elif isinstance(outcome, Levels):
-            pages.tabulate(LEVEL_HEAD, _level_rows(outcome, labels), LEVEL_WIDTHS)
+            head = LEVEL_HEAD if outcome.comparison.outcome else RATING_HEAD
+            pages.tabulate(head, _level_rows(outcome, labels), LEVEL_WIDTHS)
     for key, sentence in sentences(outcome).items():
         pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
 
@@ -93,7 +97,11 @@ def _definitions(
     head = ["Definition", *(labels.get(key, key.capitalize()) for key in results)]
     rows = [
         [f"{other.definition.id}: {other.definition.says}"]
-        + [_p(one.sensitivity_verdicts[name].p_adjusted, outcome) for one in results.values()]
+        + [
+            "† " * (verdict.significant != one.verdict.significant) + _p(verdict.p_adjusted, outcome)
+            for one in results.values()
+            for verdict in [one.sensitivity_verdicts[name]]
+        ]
         for name, other in next(iter(results.values())).sensitivity.items()
     ]
     return head, rows, [0.46] + [0.54 / len(results)] * len(results)
@@ -104,13 +112,16 @@ def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
     for key, one in outcome.results.items():
         test, choices = one.deciding_t, one.choices
         counts = choices.counts.values() if choices else ()
+        found = [apa.share(row[0], sum(row)) for row in counts] or [
+            apa.number(m.mean) for m in one.summaries.values()
+        ]
         rows.append([
-            labels.get(key, key.capitalize()), " / ".join(apa.share(row[0], sum(row)) for row in counts),
+            labels.get(key, key.capitalize()), " / ".join(found),
             apa.number(test.t), apa.degrees(test.df), _p(test.p, outcome),
             _p(one.verdict.p_adjusted, outcome), f"{apa.number(test.d)} {apa.interval(test.d_ci95)}",
-            _p(choices.mcnemar.p_one_sided, outcome) if choices else "–",
+            _p(choices.mcnemar.p_one_sided if choices else one.welch.p, outcome),
             f"{apa.number(choices.difference.estimate)} {apa.interval(choices.difference.ci95)}"
-            if choices else "–",
+            if choices else f"{apa.number(test.estimate)} {apa.interval(test.ci95)}",
         ])  # fmt: skip
     return rows
 

@@ -49,6 +49,7 @@ def analyse(csv: Path, protocol: Protocol, out: Path, columns: Mapping[str, str]
         protocol_sha256=protocol.sha256,
         responses_sha256=responses.sha256,
         software={"Python": python_version()} | {package: version(package) for package in PACKAGES},
+        seed=protocol.seed,
     )
     results = Results(findings, provenance, look_further(findings, responses, protocol))
     drawings = draw(findings, labels_of(protocol))

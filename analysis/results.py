@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from analysis.chance import DEFINITIONS
+from analysis.description import described
 from analysis.further import SEED, Further
 from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Preferences, Targets
@@ -33,6 +34,7 @@ class Provenance:
     protocol_sha256: str
     responses_sha256: str
     software: Mapping[str, str]
+    seed: int = 0  # of the study's orders
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class Results:
             "protocol_sha256": self.provenance.protocol_sha256,
             "responses_sha256": self.provenance.responses_sha256,
             "software": dict(self.provenance.software),
+            "seed": self.provenance.seed,
             "alpha": self.findings.alpha,
             "participants": {
                 "answered": flow.answered,
@@ -86,6 +89,7 @@ class Results:
                         outcome.hypothesis
                     ] = mirrored
         content["further"] = self._further()
+        content["described"] = [*described(self.findings)]
         strictly: Json = strict(content)
         return strictly
 

@@ -6,7 +6,7 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
-from analysis.apa import bounded, degrees, interval, number, probability, share
+from analysis.apa import degrees, interval, number, probability, share, significance
 from analysis.levels import Choices, Compared
 from analysis.plan import Levels, Targets
 
@@ -96,7 +96,7 @@ def confusion_note(outcome: Levels) -> str:
         if sum(row) and sum(round(100 * float(share(k, sum(row)))) for k in row) != 100
     ]
     return (
-        f"N = {n} per cell; {judging.test}, {judging.sides}, alpha = {bounded(judging.alpha)}, "
+        f"N = {n} per cell; {judging.test}, {judging.sides}, alpha = {significance(judging.alpha)}, "
         f"{judging.adjustment}: "
         + ", ".join(found)
         + "."
@@ -211,10 +211,11 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
         r"% packages: booktabs",
         r"\begin{table}",
         r"  \centering",
-        r"  \setlength{\tabcolsep}{4pt}",
+        r"  \small",
+        r"  \setlength{\tabcolsep}{3pt}",
         r"  \begin{tabular}{lrrrrrr}",
         r"    \toprule",
-        rf"    & {first} $M$ ($SD$) & {second} $M$ ($SD$) & $t$ & $df$ & $p$ & $d$ [95\% CI] \\",
+        rf"    & {first} & {second} & $t$ & $df$ & $p$ & $d$ [95\% CI] \\",
         r"    \midrule",
     ]
     for one in outcome.results.values():
@@ -234,7 +235,7 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        rf"  \caption{{{noted(note)}Ratings compared: {judging.test}, {judging.sides}, "
+        rf"  \caption{{{noted(note)}Ratings compared, $M$ ($SD$): {judging.test}, {judging.sides}, "
         rf"$p$ {judging.adjustment}. {sizes}.}}",
         rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",

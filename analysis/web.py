@@ -8,10 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from analysis import apa
+from analysis.description import described
 from analysis.drawing import Drawing
-from analysis.glossary import GLOSSARY, THREATS
+from analysis.further import SEED
+from analysis.glossary import GLOSSARY
 from analysis.plan import Levels, Preferences, Targets
 from analysis.results import Results
+from analysis.threats import threats
 from analysis.words import claim, labels_of, method, sentences, summary, warnings
 
 if TYPE_CHECKING:
@@ -33,20 +36,22 @@ def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) 
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"inline_svg": _inline_svg, "fixed": apa.number}
+    environment.filters |= {"inline_svg": _inline_svg, "fixed": apa.number, "unbroken": apa.unbroken}
     outcomes = findings.outcomes
     return environment.get_template("report.html").render(
         title=protocol.title.in_("en"),
         css=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
         provenance=results.provenance,
+        bootstrap_seed=SEED,
         findings=findings,
         further=results.further,
+        described=[*described(findings)],
         note=findings.responses.note,
         alpha=findings.alpha,
         labels=labels_of(protocol),
         apa=apa,
         glossary=GLOSSARY,
-        threats=THREATS,
+        threats=[*threats(protocol)],
         drawings=drawings,
         texts={name: claim(protocol, name, outcome) for name, outcome in outcomes.items()},
         targets=[outcome for outcome in outcomes.values() if isinstance(outcome, Targets)],
@@ -57,14 +62,6 @@ def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) 
         summary=[summary(name, outcome) for name, outcome in outcomes.items()],
         warnings=warnings(findings),
         changed=[*results.further.changed(findings)],
-        differs=_differs,
-    )
-
-
-def _differs(outcome: Targets, definition: str) -> bool:
-    return any(
-        one.sensitivity_verdicts[definition].significant != one.verdict.significant
-        for one in outcome.results.values()
     )
 
 

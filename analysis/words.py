@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from analysis import apa
+from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Outcome, Preferences, Targets
 from analysis.preference import Preferred
 from analysis.statistics.t_test import TTest
-from analysis.target import Judging, Verdict
+from analysis.target import Judging, Recognised, Verdict
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -18,12 +20,31 @@ def sentences(outcome: Outcome) -> dict[str, str]:
     """The test of each stimulus, principle or pair as a sentence for a paper."""
     if isinstance(outcome, Preferences):
         return {name: _preferred(one, outcome.judging) for name, one in outcome.results.items()}
-    tests = (
-        {name: (one.against.t_test, one.verdict) for name, one in outcome.results.items()}
-        if isinstance(outcome, Targets)
-        else {name: (one.deciding_t, one.verdict) for name, one in outcome.results.items()}
+    if isinstance(outcome, Targets):
+        return {
+            name: f"{_against(one, outcome)}, {_sentence(one.against.t_test, one.verdict, outcome.judging)}"
+            for name, one in outcome.results.items()
+        }
+    return {
+        name: f"{_levels(one)}, {_sentence(one.deciding_t, one.verdict, outcome.judging)}"
+        for name, one in outcome.results.items()
+    }
+
+
+def _against(one: Recognised, outcome: Targets) -> str:
+    """The mean beside chance."""
+    mean = f"M = {apa.number(one.summary.mean)}, SD = {apa.number(one.summary.sd)}"
+    return f"{mean} against chance = {apa.number(one.against.null)} ({outcome.chance})"
+
+
+def _levels(one: Compared) -> str:
+    """What was found at both levels."""
+    if one.choices is not None:
+        (k1, rest1), (k2, rest2) = one.choices.counts.values()
+        return f"{k1} of {k1 + rest1} against {k2} of {k2 + rest2}"
+    return " against ".join(
+        f"M = {apa.number(m.mean)} (SD = {apa.number(m.sd)})" for m in one.summaries.values()
     )
-    return {name: _sentence(test, verdict, outcome.judging) for name, (test, verdict) in tests.items()}
 
 
 def _sentence(test: TTest, verdict: Verdict, judging: Judging) -> str:
@@ -50,7 +71,7 @@ def _preferred(one: Preferred, judging: Judging) -> str:
 def summary(name: str, outcome: Outcome) -> str:
     """What was found, in one line."""
     found = [key for key, one in outcome.results.items() if one.verdict.significant]
-    what = {Targets: "rated above chance", Preferences: "preferred as expected"}.get(
+    what = {Targets: "clips rated above chance", Preferences: "preferred as expected"}.get(
         type(outcome), "told apart as expected"
     )
     n, of = len(found), len(outcome.results)
@@ -58,27 +79,36 @@ def summary(name: str, outcome: Outcome) -> str:
     but = f"; not {', '.join(missed)}" if missed and found else ""
     mirrors = outcome.mirrors if isinstance(outcome, Levels) else None
     mirror = f" (the mirror image of {mirrors}, not counted again)" if mirrors else ""
-    alpha = apa.bounded(outcome.judging.alpha)
-    return f"{name}: {n} of {of} {what} (p {outcome.judging.adjustment}, α = {alpha}){but}{mirror}."
+    alpha = apa.significance(outcome.judging.alpha)
+    return f"{name}: {n} of {of} {what} ({outcome.judging.adjustment} p, α = {alpha}){but}{mirror}."
 
 
 def warnings(findings: Findings) -> list[str]:
     """What a reader must not miss."""
-    said = []
+    said: list[str] = []
     for name, outcome in findings.outcomes.items():
         if isinstance(outcome, Targets):
-            if outcome.chance == "midpoint":
-                said.append(
-                    f"{name}: the chance level is the middle of the scale by assumption; agreeing with every "
-                    "item would pass it. The table of definitions shows what others say."
-                )
-            if depends := [key for key, one in outcome.results.items() if one.depends_on_definition]:
-                said.append(
-                    f"{name}: the decision depends on the definition of chance for {', '.join(depends)}."
-                )
-        if degenerate := ", ".join(key for key, one in outcome.results.items() if one.verdict.note):
-            said.append(f"{name}: no t-test for {degenerate} (zero variance); an exact test decides.")
+            said += _depends(name, outcome)
+        undefined = {key: one.verdict for key, one in outcome.results.items() if one.verdict.note}
+        for reason in dict.fromkeys(verdict.note for verdict in undefined.values()):
+            which = ", ".join(key for key, verdict in undefined.items() if verdict.note == reason)
+            instead = all(verdict.p is not None for verdict in undefined.values() if verdict.note == reason)
+            exact = "; an exact test decides" if instead else ""
+            said.append(f"{name}: {outcome.judging.test} {reason} ({which}){exact}.")
     return said
+
+
+def _depends(name: str, outcome: Targets) -> Iterator[str]:
+    """Which decisions another definition of chance turns round."""
+    turned: dict[str, list[str]] = {}
+    for stimulus, one in outcome.results.items():
+        for definition, verdict in one.sensitivity_verdicts.items():
+            if verdict.significant != one.verdict.significant:
+                meaning = one.sensitivity[definition].definition
+                turned.setdefault(f"{meaning.says} ({meaning.id})", []).append(stimulus)
+    if turned:
+        which = "; ".join(f"{meaning}: {', '.join(stimuli)}" for meaning, stimuli in turned.items())
+        yield f"{name}: the decision depends on the definition of chance. It is the opposite by – {which}."
 
 
 def claim(protocol: Protocol, name: str, outcome: Outcome) -> str:
@@ -91,27 +121,31 @@ def claim(protocol: Protocol, name: str, outcome: Outcome) -> str:
     if isinstance(outcome, Preferences):
         return f"{outcome.compare[0]} is preferred to {outcome.compare[1]}"
     first, second = outcome.comparison.levels
-    return f"{first} is told from {second}"
+    on = "" if outcome.comparison.outcome else f" on {outcome.comparison.item}"
+    return f"{first} is told from {second}{on}"
 
 
 def method(outcome: Outcome) -> str:
     """How a hypothesis was tested."""
     judging = outcome.judging
+    alpha = apa.significance(judging.alpha)
     how = (
-        f"{judging.test[0].upper()}{judging.test[1:]}, {judging.sides}, α = {apa.bounded(judging.alpha)}; "
-        f"p {judging.adjustment} for {len(outcome.results)} tests."
+        f"{judging.test[0].upper()}{judging.test[1:]}, {judging.sides}, α = {alpha}; "
+        f"{judging.adjustment} p for {len(outcome.results)} test{'s' * (len(outcome.results) != 1)}."
     )
     if isinstance(outcome, Targets):
+        is_assumed = " The middle is an assumption: agreeing with every item would pass it."
+        assumed = is_assumed if outcome.chance == "midpoint" else ""
         return (
             "Each clip's rating on its intended expression against chance: "
-            f"{outcome.definition.says} ({outcome.definition.id}). {how}"
+            f"{outcome.definition.says} ({outcome.definition.id}).{assumed} {how}"
         )
     if isinstance(outcome, Preferences):
         first, second = outcome.compare
         return f"Share that chose {first} over {second}, side by side, against one half; exact. {how}"
     first, second = outcome.comparison.levels
     share = f", share of “{outcome.comparison.outcome}”" if outcome.comparison.outcome else ""
-    return f"{first.capitalize()} against {second} intensity{share}. {how}"
+    return f"{first.capitalize()} against {second}{share}. {how}"
 
 
 def labels_of(protocol: Protocol) -> dict[str, str]:

@@ -18,8 +18,8 @@ def standard_error(
 ) -> float | None:
     """The error of parameter `of` at the minimum of −log L; None where it does not bend.
 
-    `log_sd` is the place of the logarithm of the participants' SD. Where an SD of 0 is as likely, the likelihood
-    is flat in that logarithm, so it is held there.
+    `log_sd` is the place of the logarithm of the participants' SD. Where an SD of 0 is as likely, the
+    likelihood is flat in that logarithm, so it is held there.
     """
     none = at.copy()
     none[log_sd] = NONE

@@ -18,6 +18,7 @@ class Equivalence:
     above_lower: TTest
     below_upper: TTest
     p: float | None
+    reason: str | None = None
 
 
 def equivalence(values: ArrayLike, bounds: tuple[float, float]) -> Equivalence:
@@ -33,4 +34,4 @@ def equivalence(values: ArrayLike, bounds: tuple[float, float]) -> Equivalence:
     above = one_sample_t(values, low, "greater")
     below = one_sample_t(values, high, "less")
     p = None if above.p is None or below.p is None else max(above.p, below.p)
-    return Equivalence(bounds, above, below, p)
+    return Equivalence(bounds, above, below, p, above.reason or below.reason)

@@ -52,9 +52,16 @@ def gee_logistic(
     order = np.argsort(group, kind="stable")
     edges = np.flatnonzero(np.diff(group[order])) + 1
     clusters = list(zip(np.split(design[order], edges), np.split(y[order], edges), strict=True))
-    beta, correlation = _estimate(clusters, design, y)
     reduce = count < FEW if bias_reduced is None else bias_reduced
-    effect, se = float(beta[1]), _robust_se(clusters, beta, correlation, bias_reduced=reduce)
+    try:
+        beta, correlation = _estimate(clusters, design, y)
+        effect, se = float(beta[1]), _robust_se(clusters, beta, correlation, bias_reduced=reduce)
+    except np.linalg.LinAlgError:
+        return GeeLogistic(
+            n, count, None, None, None, "undefined: one answer of a participant tells the other"
+        )
+    if se < 1e-9:
+        return GeeLogistic(n, count, None, None, None, "undefined: no variance is left")
     return GeeLogistic(n, count, effect, se, erfc(abs(effect / se) / sqrt(2)))
 
 
@@ -69,6 +76,9 @@ def _estimate(clusters: list[Cluster], design: FloatArray, y: FloatArray) -> tup
         before = correlation
         beta = beta + step
         correlation = _correlation(clusters, design, y, beta)
+        largest = max(answers.size for _, answers in clusters)
+        if correlation * max(1, largest - 1) < 1e-9 - 1 or correlation > 1 - 1e-9:
+            raise np.linalg.LinAlgError("the working correlation is singular")
         if np.abs(step).max() < 1e-12 and abs(correlation - before) < 1e-12:
             break
     return beta, correlation

@@ -76,7 +76,7 @@ def test_the_report_tells_the_share_in_every_form(protocol, tmp_path):
     results = json.loads((tmp_path / "out" / "results.json").read_text(encoding="utf-8"))
     assert results["liked_H1"]["wave"]["test"]["estimate"] == pytest.approx(27 / 34)
     assert results["hypotheses"]["H1"]["results"] == "liked_H1"
-    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     assert "27 of 34 preferred wave_lively to wave_calm (.79, 95% CI [0.62, 0.91]), p &lt; .001" in page
     with (tmp_path / "out" / "tables" / "liked_H1.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
