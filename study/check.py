@@ -101,6 +101,11 @@ def _structure(protocol: Protocol) -> Iterator[Finding]:
     )
 
 
+def _alone(error: InputError, value: str) -> str:
+    """A message without the value it begins with, which stands before it already."""
+    return str(error).removeprefix(value).lstrip()
+
+
 def _motions(protocol: Protocol) -> Iterator[Finding]:
     """Every gesture can be read, and the robots can do every stimulus."""
     robots, broken = {}, []
@@ -108,7 +113,9 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         try:
             robots[name] = load_robot(name, protocol.folder)
         except InputError as error:
-            broken.append(str(protocol.source.problem(protocol.place_of_robot(name), str(error))))
+            broken.append(
+                str(protocol.source.problem(protocol.place_of_robot(name), _alone(error, f"robot: {name!r}")))
+            )
     if broken:
         yield Finding("wrong", "robot", "\n".join(broken))
         return
@@ -116,7 +123,7 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         try:
             read_gesture(protocol.folder / gesture.file, robots[protocol.robot_of(name)])
         except InputError as error:
-            broken.append(str(protocol.source.problem(("gestures", name), str(error))))
+            broken.append(str(protocol.source.problem(("gestures", name), _alone(error, f"{gesture.file}:"))))
     if broken:
         yield Finding("wrong", "gestures", "\n".join(broken))
         return

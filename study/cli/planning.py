@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -28,7 +29,8 @@ def new(folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Where the
     from study.new import new_study
 
     protocol = new_study(folder)
-    console.print(f"{protocol} is written. Change it, then: study check {folder}, and: study run {folder}")
+    where = shlex.quote(str(folder))
+    console.print(f"{protocol} is written. Change it, then: study check {where}, and: study run {where}")
 
 
 @app.command()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from study.protocol.errors import ProtocolError
+from study.protocol.errors import Problem, ProtocolError
 from study.protocol.protocol import Protocol
 from study.protocol.references import contradictions
 from study.protocol.source import Source, read_source
@@ -23,6 +23,9 @@ def load_protocol(path: Path) -> Protocol:
 
 def read_protocol(source: Source) -> Protocol:
     """Read a protocol from what a file says. Raises ProtocolError."""
+    if "joints" in source.value and "parts" not in source.value:
+        message = "is a gesture, not a protocol; give the protocol that names it, or its folder"
+        raise ProtocolError([Problem(source.path, None, None, "", message)])
     try:
         protocol = Protocol.model_validate(source.value)
     except ValidationError as error:

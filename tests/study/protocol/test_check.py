@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
+import pytest
+
 from study.check import check
-from study.protocol import load_protocol
+from study.protocol import ProtocolError, load_protocol
 
 PAPER = Path(__file__).parents[3] / "protocols" / "hielscher2025"
 
@@ -24,6 +26,17 @@ def test_the_papers_protocol_is_one_screen():
     assert max(map(len, str(report).splitlines())) <= 110
     assert all(entry["about"] == entry["about"].strip() for entry in report.as_json()["findings"])
     assert found(report, "texts").verdict == "good"
+
+
+def test_a_value_stands_once_in_its_message(load, written):
+    written["robot"] = "peper"
+    message = found(check(load(written)), "robot").message
+    assert message.count("peper'") == 1 and "is not a robot. Did you mean 'pepper'?" in message
+
+
+def test_a_gesture_is_told_from_a_protocol():
+    with pytest.raises(ProtocolError, match="is a gesture, not a protocol"):
+        load_protocol(PAPER / "gestures" / "wave.yaml")
 
 
 def test_orders_that_need_no_number_say_so():
