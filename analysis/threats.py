@@ -17,7 +17,7 @@ def threats(protocol: Protocol) -> Iterator[str]:
     if any(question.kind == "choose" and len(question.values or ()) == 2
            for part in parts for question in part.questions):  # fmt: skip
         yield "The choice is forced: there is no answer “same”, so indifference looks like guessing."
-    gestures = len({protocol.stimuli[stimulus].gesture for part in parts for stimulus in part.stimuli})
+    gestures = len({shown.gesture for part in protocol.parts for shown in protocol.stimuli_of(part)})
     shown = "One gesture was shown" if gestures == 1 else f"{gestures} gestures were shown"
     yield (
         f"{shown}. A gesture is one draw from all gestures; statistics alone do not carry the results "

@@ -81,7 +81,7 @@ def numbers(value: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 @pytest.mark.parametrize("study", ["paper", "groups"])
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(data=st.data())
 def test_every_number_is_finite_or_null_beside_a_reason(
     studies: dict[str, Protocol], tmp_path_factory: pytest.TempPathFactory, study: str, data: st.DataObject
