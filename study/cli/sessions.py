@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -163,7 +164,8 @@ def export(
     file = kept / "study.db"
     if database is None and not file.exists():
         raise InputError(
-            f"{file}: no answers yet. `study run {path}` opens the study; --data names another folder"
+            f"{file}: no answers yet. `study run {shlex.quote(str(path))}` opens the study; "
+            "--data names another folder"
         )
     store = open_store(database or f"sqlite:///{file}")
     manifests = {protocol.sha256: Manifest.load(folder)}
