@@ -86,10 +86,10 @@ def _semi_implicit(rate: float, h: float, gain: float) -> Step:
 def respond(chased: FloatArray, state: FloatArray, step: Step) -> FloatArray:
     """Motion (2, n + 1, m), positions and velocities, of springs chasing `chased` (n + 1, m) from `state`.
 
-    The recursion x_{k+1} = A x_k + b_k as one filter for positions and velocities alike: by Cayley and
+    The recursion x_{k+1} = A x_k + b_k as one banded system for positions and velocities alike: by Cayley and
     Hamilton x_{k+2} = tr(A) x_{k+1} - det(A) x_k + b_{k+1} + (A - tr(A)) b_k.
     """
-    from scipy.signal import lfilter  # late: slow to import
+    from scipy.linalg.lapack import dtbtrs  # late: slow to import
 
     if len(chased) == 1:
         return state[:, None]
@@ -102,7 +102,10 @@ def respond(chased: FloatArray, state: FloatArray, step: Step) -> FloatArray:
     source[1, 1:] += c * driven[0, :-1] - a * driven[1, :-1]
     source[:, 0] += step.across @ state
     source[:, 1:2] -= (a * d - b * c) * state[:, None]
+    n = source.shape[1]
+    recursion = np.repeat([[1.0], [-(a + d)], [a * d - b * c]], n, axis=1)  # its diagonals
+    solved, _ = dtbtrs(recursion, source.swapaxes(0, 1).reshape(n, -1), uplo="L", diag="U")
     motion = np.empty((2, *chased.shape))
     motion[:, 0] = state
-    motion[:, 1:] = lfilter([1.0], [1.0, -(a + d), a * d - b * c], source, axis=1)
+    motion[:, 1:] = solved.reshape(n, 2, -1).swapaxes(0, 1)
     return motion
