@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import signal
 import socket
 import threading
@@ -125,6 +126,7 @@ def _server(app: FastAPI, host: str, port: int) -> tuple[uvicorn.Server, socket.
         server_header=False,
         timeout_graceful_shutdown=GRACE_S,
     )
+    gc.freeze()  # what is loaded by now stays: collections under load need not look through it again
     server = uvicorn.Server(config)
     app.state.is_stopping = lambda: server.should_exit
     return server, listener
