@@ -7,8 +7,9 @@ from math import erfc, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.special import expit
 
-from analysis.statistics.curvature import standard_error
+from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -41,8 +42,6 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     >>> round(cumulative_link_mixed(ratings, target, people).effect, 1)
     2.0
     """
-    from scipy.optimize import minimize
-
     values, y = np.unique(np.asarray(ratings), return_inverse=True)
     covariate = np.asarray(x, dtype=float)
     names, group = np.unique(np.asarray(participants), return_inverse=True)
@@ -53,13 +52,12 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     shares = np.cumsum(np.bincount(y))[:-1] / y.size
     cuts = np.log(shares / (1 - shares))
     start = np.concatenate([cuts[:1], np.log(np.maximum(np.diff(cuts), 1e-3)), [0.0, 0.0]])
-    model = _Model(y, covariate, group, levels, names.size)
-    fit = minimize(model.negative, start, method="BFGS", options={"gtol": 1e-5})
-    parameters = fit.x
+    model = _Model(y, covariate, group, levels)
+    parameters = minimum(model.negative, start)
     effect = float(parameters[levels - 1])
     se = standard_error(model.negative, parameters, of=levels - 1, log_sd=levels)
-    if se is None or abs(effect) > 20:
-        reason = "undefined: the conditions separate the ratings"
+    if se is None or abs(effect) > LARGEST or parameters[levels] > np.log(WIDEST):
+        reason = "undefined: the conditions or the participants separate the ratings"
         return CumulativeLinkMixed(y.size, names.size, None, None, None, None, (), None, None, reason)
     return CumulativeLinkMixed(
         n=y.size,
@@ -68,56 +66,49 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
         se=se,
         z=effect / se,
         p=erfc(abs(effect / se) / sqrt(2)),
-        thresholds=tuple(float(cut) for cut in _cuts(parameters, levels)),
+        thresholds=tuple(float(cut) for cut in _cuts(parameters[None], levels)[0]),
         participant_sd=float(np.exp(parameters[levels])),
-        log_likelihood=-float(fit.fun),
+        log_likelihood=-float(model.negative(parameters[None])[0]),
     )
 
 
 class _Model:
     """The negative log-likelihood with each participant's effect integrated out at its mode."""
 
-    def __init__(self, y: IntArray, x: FloatArray, group: IntArray, levels: int, groups: int) -> None:
-        self.y, self.x, self.group, self.levels, self.groups = y, x, group, levels, groups
-        self.mode = np.zeros(groups)  # kept from call to call: the next search starts there
+    def __init__(self, y: IntArray, x: FloatArray, group: IntArray, levels: int) -> None:
+        order = np.argsort(group, kind="stable")
+        self.y, self.x, self.group, self.levels = y[order], x[order], group[order], levels
+        self.starts = np.unique(self.group, return_index=True)[1]  # of each participant's rows
 
-    def negative(self, parameters: FloatArray) -> float:
-        cuts = np.concatenate([[-np.inf], _cuts(parameters, self.levels), [np.inf]])
-        effect, sd = parameters[self.levels - 1], np.exp(parameters[self.levels])
-        upper = cuts[self.y + 1] - effect * self.x
-        lower = cuts[self.y] - effect * self.x
-        u = self.mode
-        for _ in range(50):
-            step, curvature, _ = self._derivatives(upper, lower, sd, u)
-            u = u - np.clip(step / curvature, -2, 2)
-            if np.max(np.abs(step / curvature)) < 1e-10:
+    def negative(self, parameters: FloatArray) -> FloatArray:
+        """−log L of thresholds, effect and log of the participants' SD, (k, levels + 1) → (k,)."""
+        cuts = np.pad(_cuts(parameters, self.levels), ((0, 0), (1, 1)), constant_values=(-np.inf, np.inf))
+        explained = parameters[:, [self.levels - 1]] * self.x  # (k, rows)
+        upper, lower = cuts[:, self.y + 1] - explained, cuts[:, self.y] - explained
+        sd = np.exp(parameters[:, [self.levels]])
+        u = np.zeros((len(parameters), self.starts.size))
+        for reach in REACHES:
+            a, b = self._below(upper, sd, u), self._below(lower, sd, u)
+            # with F' = F (1 − F): the log of F(upper) − F(lower) has slope −sd (1 − a − b) in u
+            slope = sd * self._sums(1 - a - b) + u
+            curvature = sd**2 * self._sums(a * (1 - a) + b * (1 - b)) + 1
+            if np.max(np.abs(slope / curvature)) < 1e-10:
                 break
-        _, curvature, value = self._derivatives(upper, lower, sd, u)
-        self.mode = u
-        return float((value + 0.5 * np.log(curvature)).sum())
+            u = u - np.clip(slope / curvature, -reach, reach)
+        value = self._sums(-np.log(np.maximum(a - b, 1e-300))) + u**2 / 2
+        found: FloatArray = (value + 0.5 * np.log(curvature)).sum(axis=1)
+        return found
 
-    def _derivatives(
-        self, upper: FloatArray, lower: FloatArray, sd: float, u: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Slope, curvature and value of −log(likelihood · standard normal density) in u, (participants,)."""
-        a, b = _logistic(upper - sd * u[self.group]), _logistic(lower - sd * u[self.group])
-        p = np.maximum(a - b, 1e-300)
-        # with F' = F (1 − F): the log of F(upper) − F(lower) has slope −sd (1 − a − b) in u
-        slope = sd * (1 - a - b)
-        bend = sd**2 * (a * (1 - a) + b * (1 - b))
-        sums: list[FloatArray] = [
-            np.bincount(self.group, values, self.groups).astype(float) for values in (slope, bend, -np.log(p))
-        ]
-        return sums[0] + u, sums[1] + 1, sums[2] + u**2 / 2
+    def _below(self, cut: FloatArray, sd: FloatArray, u: FloatArray) -> FloatArray:
+        chance: FloatArray = expit(cut - sd * u[:, self.group])
+        return chance
+
+    def _sums(self, values: FloatArray) -> FloatArray:
+        """Of each participant's rows, (k, rows) → (k, participants)."""
+        return np.add.reduceat(values, self.starts, axis=1)
 
 
 def _cuts(parameters: FloatArray, levels: int) -> FloatArray:
     """Increasing thresholds from the first one and the logarithms of the steps."""
-    return np.cumsum(np.concatenate([parameters[:1], np.exp(parameters[1 : levels - 1])]))
-
-
-def _logistic(x: FloatArray) -> FloatArray:
-    from scipy.special import expit
-
-    y: FloatArray = expit(x)
-    return y
+    steps = np.exp(parameters[:, 1 : levels - 1])
+    return np.cumsum(np.concatenate([parameters[:, :1], steps], axis=1), axis=1)

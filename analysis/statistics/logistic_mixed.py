@@ -7,13 +7,13 @@ from math import erfc, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.special import expit
 
-from analysis.statistics.curvature import standard_error
+from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 NODES = 25  # of the quadrature
-WIDEST = 10.0  # SD of participants, in log odds; beyond, the likelihood has no maximum to speak of
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,6 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
     >>> round(result.effect, 2), round(result.se, 2)
     (1.39, 1.22)
     """
-    from scipy.optimize import minimize
-
     y, covariate = np.asarray(chosen, dtype=float), np.asarray(x, dtype=float)
     _, group = np.unique(np.asarray(participants), return_inverse=True)
     count = int(group.max()) + 1 if group.size else 0
@@ -59,11 +57,11 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
         return undefined("complete separation in a condition")
     if not _both_ways(y, covariate, group):
         return undefined("whoever answers differently does so in one direction")
-    model = _Model(y, covariate, group, count)
-    fit = minimize(model.negative, np.array([0.0, 0.0, 0.0]), method="BFGS", options={"gtol": 1e-6})
-    intercept, effect, log_sd = (float(value) for value in fit.x)
-    se = standard_error(model.negative, fit.x, of=1, log_sd=2)
-    if se is None or abs(effect) > 20 or log_sd > np.log(WIDEST):
+    model = _Model(y, covariate, group)
+    parameters = minimum(model.negative, np.zeros(3))
+    intercept, effect, log_sd = (float(value) for value in parameters)
+    se = standard_error(model.negative, parameters, of=1, log_sd=2)
+    if se is None or abs(effect) > LARGEST or log_sd > np.log(WIDEST):
         return undefined("participants answer too consistently for a bounded effect")
     return LogisticMixed(
         n=y.size,
@@ -73,7 +71,7 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
         se=se,
         p=erfc(abs(effect / se) / sqrt(2)),
         participant_sd=float(np.exp(log_sd)),
-        log_likelihood=-float(fit.fun),
+        log_likelihood=-float(model.negative(parameters[None])[0]),
     )
 
 
@@ -87,37 +85,41 @@ def _both_ways(y: FloatArray, x: FloatArray, group: IntArray) -> bool:
 class _Model:
     """The negative log-likelihood with participants integrated out around their modes."""
 
-    def __init__(self, y: FloatArray, x: FloatArray, group: IntArray, groups: int) -> None:
-        self.sign, self.x, self.group, self.groups = 2 * y - 1, x, group, groups
+    def __init__(self, y: FloatArray, x: FloatArray, group: IntArray) -> None:
+        order = np.argsort(group, kind="stable")
+        self.y, self.x, self.group = y[order], x[order], group[order]
+        self.starts = np.unique(self.group, return_index=True)[1]  # of each participant's rows
         self.nodes, weights = np.polynomial.hermite.hermgauss(NODES)
         self.log_weights = np.log(weights) + self.nodes**2
-        self.mode = np.zeros(groups)  # kept from call to call: the next search starts there
 
-    def negative(self, parameters: FloatArray) -> float:
-        """−log L at (intercept, effect, log of the participants' SD)."""
-        intercept, effect, log_sd = parameters
-        sd = float(np.exp(min(log_sd, 5.0)))
-        fixed = intercept + effect * self.x
+    def negative(self, parameters: FloatArray) -> FloatArray:
+        """−log L at (intercept, effect, log of the participants' SD), (k, 3) → (k,)."""
+        intercept, effect, log_sd = parameters.T[..., None]
+        sd = np.exp(np.minimum(log_sd, 5.0))
+        fixed = intercept + effect * self.x  # (k, rows)
         u, curvature = self._modes(fixed, sd)
-        self.mode = u
-        spread = np.sqrt(2 / curvature)  # (groups,)
-        at = u[:, None] + spread[:, None] * self.nodes  # (groups, nodes), in units of the SD
-        logits = self.sign[:, None] * (fixed[:, None] + sd * at[self.group])
-        log_joint = np.zeros_like(at)
-        np.add.at(log_joint, self.group, -np.logaddexp(0, -logits))
+        spread = np.sqrt(2 / curvature)  # (k, groups)
+        at = u[..., None] + spread[..., None] * self.nodes  # (k, groups, nodes), in units of the SD
+        logits = fixed[..., None] + sd[..., None] * at[:, self.group]
+        log_joint = self._sums(-np.logaddexp(0, (1 - 2 * self.y)[:, None] * logits))
         log_joint += self.log_weights - at**2 / 2
-        peak = log_joint.max(axis=1)
-        likelihood = peak + np.log(np.exp(log_joint - peak[:, None]).sum(axis=1))
-        return -float((likelihood + np.log(spread) - np.log(2 * np.pi) / 2).sum())
+        peak = log_joint.max(axis=2)
+        likelihood = peak + np.log(np.exp(log_joint - peak[..., None]).sum(axis=2))
+        found: FloatArray = -(likelihood + np.log(spread) - np.log(2 * np.pi) / 2).sum(axis=1)
+        return found
 
-    def _modes(self, fixed: FloatArray, sd: float) -> tuple[FloatArray, FloatArray]:
-        """The likeliest effect of each participant, in SDs, and the curvature there."""
-        u = self.mode
-        for _ in range(50):
-            chance = 1 / (1 + np.exp(-(fixed + sd * u[self.group])))
-            pull = np.bincount(self.group, sd * ((self.sign + 1) / 2 - chance), self.groups) - u
-            curvature = np.bincount(self.group, sd**2 * chance * (1 - chance), self.groups) + 1
-            u = u + np.clip(pull / curvature, -2, 2)
+    def _modes(self, fixed: FloatArray, sd: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The likeliest effect of each participant, in SDs, and the curvature there, (k, groups)."""
+        u = np.zeros((len(fixed), self.starts.size))
+        for reach in REACHES:
+            chance = expit(fixed + sd * u[:, self.group])
+            pull = sd * self._sums(self.y - chance) - u
+            curvature = sd**2 * self._sums(chance * (1 - chance)) + 1
             if np.max(np.abs(pull / curvature)) < 1e-10:
                 break
-        return u, np.asarray(curvature, dtype=float)
+            u = u + np.clip(pull / curvature, -reach, reach)
+        return u, curvature
+
+    def _sums(self, values: FloatArray) -> FloatArray:
+        """Of each participant's rows, (k, rows, …) → (k, groups, …)."""
+        return np.add.reduceat(values, self.starts, axis=1)

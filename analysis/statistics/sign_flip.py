@@ -89,8 +89,8 @@ def on_grid(
     differences: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
 ) -> np.ndarray[tuple[int], np.dtype[np.int64]] | None:
     """The differences as whole numbers of the coarsest step (1, 1/2, …, 1/1000) that fits all, if any."""
-    for parts in range(1, 1001):
-        scaled = differences * parts
-        if np.all(np.abs(scaled - np.round(scaled)) < 1e-9 * parts):
-            return np.round(scaled).astype(np.int64)
-    return None
+    parts = np.arange(1, 1001)
+    for difference in differences:
+        scaled = difference * parts
+        parts = parts[np.abs(scaled - np.round(scaled)) < 1e-9 * parts]
+    return np.round(differences * parts[0]).astype(np.int64) if parts.size else None

@@ -192,3 +192,31 @@ def test_without_differences_among_participants_the_error_is_that_of_a_plain_log
     assert fit.se == pytest.approx(np.sqrt(1 / 30 + 1 / 6 + 1 / yes + 1 / (36 - yes)), rel=1e-3)
     ordinal = cumulative_link_mixed(*rows)
     assert (ordinal.effect, ordinal.se) == pytest.approx((fit.effect, fit.se), rel=1e-3)
+
+
+def test_ratings_that_the_condition_decides_have_no_model() -> None:
+    target = np.tile([1, 0], 8)
+    fit = cumulative_link_mixed(3 + target, target, np.repeat(np.arange(8), 2))
+    assert fit.reason == "undefined: the conditions or the participants separate the ratings"
+
+
+def test_the_ratings_model_of_two_ratings_is_the_choices_model() -> None:
+    # of so many answers each that Laplace's approximation is close to the quadrature
+    rng = np.random.default_rng(3)
+    x, people = np.tile([1, 0], 400), np.repeat(np.arange(20), 40)
+    chosen = rng.random(800) < 1 / (1 + np.exp(-(x - 0.5 + 2 * rng.normal(size=20)[people])))
+    ordinal, choices = (model(chosen, x, people) for model in (cumulative_link_mixed, logistic_mixed))
+    assert (ordinal.effect, ordinal.se) == pytest.approx((choices.effect, choices.se), rel=1e-2)
+    assert ordinal.participant_sd == pytest.approx(choices.participant_sd, rel=2e-2)
+
+
+def test_participants_who_differ_widely_are_integrated_out_exactly() -> None:
+    # 10 say yes twice, 10 no twice, 3 change one way and 2 the other: Newton's steps could circle a mode
+    pairs = np.repeat([[1, 1], [0, 0], [1, 0], [0, 1]], [10, 10, 3, 2], axis=0)
+    fit = logistic_mixed(pairs.ravel(), np.tile([1, 0], 25), np.repeat(np.arange(25), 2))
+    assert fit.participant_sd is not None and fit.participant_sd > 3
+    u = np.linspace(-9, 9, 20_001)
+    logits = fit.intercept + fit.effect * np.array([[1], [0]]) + fit.participant_sd * u
+    yes = 1 / (1 + np.exp(-logits))
+    joint = np.where(pairs[..., None], yes, 1 - yes).prod(axis=1) * np.exp(-(u**2) / 2) / np.sqrt(2 * np.pi)
+    assert fit.log_likelihood == pytest.approx(np.log(np.trapezoid(joint, u)).sum(), abs=1e-2)
