@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 from uuid import UUID
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 PLAYED_ENOUGH = 0.98  # of a clip's duration; players differ by a frame or two at the ends
 
@@ -37,8 +37,10 @@ class View(BaseModel):
     starts: int = Field(0, ge=0, le=10_000)  # plays begun
     played_s: Seconds  # truly played in the first full play: sum of forward steps, jumps not counted
     duration_s: Seconds
-    frames: int = Field(ge=0)  # put on screen, by requestVideoFrameCallback; 0 where a browser has none
-    dropped: int = Field(ge=0)  # by getVideoPlaybackQuality
+    frames: int = Field(
+        ge=0, le=10_000_000
+    )  # put on screen, by requestVideoFrameCallback; 0 where a browser has none
+    dropped: int = Field(ge=0, le=10_000_000)  # by getVideoPlaybackQuality
     streamed: bool = False  # true where the clip could not be loaded whole before playing
     happenings: tuple[Happening, ...] = Field((), max_length=500)
 
@@ -64,6 +66,16 @@ class Submission(BaseModel):
     answers: tuple[Answer, ...] = Field((), max_length=500)
     views: tuple[View, ...] = Field((), max_length=20)
     on_page_ms: Milliseconds
+
+    @model_validator(mode="after")
+    def _say_each_thing_once(self) -> Self:
+        for name, said in (
+            ("item", [answer.item for answer in self.answers]),
+            ("role", [view.role for view in self.views]),
+        ):
+            if len(set(said)) < len(said):
+                raise ValueError(f"the same {name} twice")
+        return self
 
     @property
     def values(self) -> dict[str, str]:
@@ -91,9 +103,12 @@ def playback_fault(
 
     `durations_s` maps the role of each clip that had to be watched to its duration; `elapsed_s` is the time
     since the server handed out the page, None where that is not to be judged (simulated sessions); `replays`
-    is how often a clip may be played again after its first full view.
+    is how often a clip may be played again after its first full view. A negative time judges nothing: the
+    server's clock was set back meanwhile.
     """
     seen: dict[str, View] = {view.role: view for view in views}
+    if unshown := seen.keys() - durations_s.keys():
+        return f"there is no {min(unshown)} on this page"
     for role, duration_s in durations_s.items():
         view = seen.get(role)
         if view is None or view.plays < 1:
@@ -103,6 +118,6 @@ def playback_fault(
         if replays is not None and view.plays > 1 + replays:
             return f"the {role} was played {view.plays} times; {1 + replays} are allowed"
     needed_s = PLAYED_ENOUGH * sum(durations_s.values())
-    if elapsed_s is not None and elapsed_s < needed_s:
+    if elapsed_s is not None and 0 <= elapsed_s < needed_s:
         return f"answered {elapsed_s:.2f} s after the page was opened; its clips take {needed_s:.2f} s"
     return None

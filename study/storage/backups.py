@@ -6,6 +6,7 @@ deleted from the older backups too when the next one is made, and does not come 
 
 from __future__ import annotations
 
+import logging
 import sqlite3
 import threading
 from collections.abc import Callable, Sequence
@@ -19,6 +20,7 @@ from study.storage.sqlite import held
 
 KEPT = 48
 SUFFIX = ".db"
+logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,10 @@ def copy_database(source: Path, target: Path) -> None:
 
 
 class BackupTimer:
-    """Calls for a backup every so often, in a thread of its own, and once more when it is stopped."""
+    """Calls for a backup every so often, in a thread of its own, and once more when it is stopped.
+
+    One that fails is said, and the next is tried all the same: there may be room again by then.
+    """
 
     def __init__(self, make: Callable[[], object], *, every_s: float) -> None:
         self._make = make
@@ -110,8 +115,14 @@ class BackupTimer:
     def __exit__(self, *_: object) -> None:
         self._stopped.set()
         self._thread.join()
-        self._make()
+        self._try()
 
     def _run(self) -> None:
         while not self._stopped.wait(self._every_s):
+            self._try()
+
+    def _try(self) -> None:
+        try:
             self._make()
+        except (OSError, sqlite3.Error) as err:
+            logger.error("No backup could be made: %s", err)

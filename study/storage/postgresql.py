@@ -7,10 +7,11 @@ vacuums, by itself or as its administrator orders.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 
 from sqlalchemy import URL, Engine, create_engine, text
+from sqlalchemy.exc import OperationalError
 
 from stimuli.errors import InputError
 from study.storage.database import Database, holder
@@ -25,7 +26,11 @@ HOLDER = text(
 def open_database(url: URL) -> Database:
     """A database reached by psycopg 3."""
     try:
-        engine = create_engine(url.set(drivername="postgresql+psycopg"), pool_pre_ping=True)
+        engine = create_engine(
+            url.set(drivername="postgresql+psycopg"),
+            pool_pre_ping=True,  # so that a server that was restarted is found again
+            hide_parameters=True,  # errors are logged, answers are not
+        )
     except ModuleNotFoundError as err:
         message = "PostgreSQL needs psycopg: pip install 'expressive-motion-study[postgresql]'"
         raise InputError(message) from err
@@ -44,4 +49,5 @@ def _held(engine: Engine) -> Iterator[None]:
         try:
             yield
         finally:
-            db.execute(text("SELECT pg_advisory_unlock(:lock)"), name)
+            with suppress(OperationalError):  # with the connection the lock is gone
+                db.execute(text("SELECT pg_advisory_unlock(:lock)"), name)

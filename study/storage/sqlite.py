@@ -32,7 +32,7 @@ def open_database(url: URL) -> Database:
     """A database whose connections all have the pragmas above."""
     file = Path(url.database or "")
     file.parent.mkdir(parents=True, exist_ok=True)
-    engine = create_engine(url)
+    engine = create_engine(url, hide_parameters=True)  # errors are logged, answers are not
 
     @event.listens_for(engine, "connect")
     def configure(connection: SQLiteConnection, _: object) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import logging
+
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, Response
-from sqlalchemy.exc import IntegrityError
+from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
 from starlette.exceptions import HTTPException
 
 from study.web import entry, experimenter, participant
@@ -17,7 +19,10 @@ from study.web.site import Site
 from study.web.visitor import language_of
 
 LONGEST_BODY = 256 * 1024  # bytes; an answered page with its playback records has some 10 kB
+TRY_AGAIN_S = 5
 FOR_EVER = {"Cache-Control": "public, max-age=31536000, immutable"}
+
+logger = logging.getLogger(__name__)
 
 
 def create_app(site: Site) -> FastAPI:
@@ -69,6 +74,10 @@ def create_app(site: Site) -> FastAPI:
                 say("Please wait a little"),
                 say("There were too many attempts. Please try again in a minute."),
             ),
+            503: (
+                say("Nothing can be stored at the moment"),
+                say("What you sent before is safe. Please wait a minute, then reload this page."),
+            ),
         }.get(fault.status_code, (say("This did not work"), say("Please go back and try again.")))
         page = render(
             request,
@@ -92,5 +101,18 @@ def create_app(site: Site) -> FastAPI:
         """Such as an answer under way from somebody who withdrew meanwhile."""
         site.store.forget()
         return JSONResponse({"reason": "contradicts what is stored"}, 409)
+
+    @app.exception_handler(DataError)
+    async def say_that_it_cannot_be_kept(request: Request, _: DataError) -> Response:
+        """Such as the character of code 0, in PostgreSQL."""
+        return await say_what_went_wrong(request, HTTPException(400, "cannot be stored"))
+
+    @app.exception_handler(DBAPIError)
+    async def say_that_nothing_can_be_stored(request: Request, fault: DBAPIError) -> Response:
+        """The disk is full, or the database away: nothing is acknowledged, and browsers send it again."""
+        logger.error("Nothing can be stored: %s", fault.orig)
+        site.store.forget()
+        unavailable = HTTPException(503, "cannot be stored now", {"Retry-After": str(TRY_AGAIN_S)})
+        return await say_what_went_wrong(request, unavailable)
 
     return app

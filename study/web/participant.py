@@ -227,9 +227,12 @@ def withdraw(
     """Delete everything about whoever holds the cookie or the code."""
     site, language, participant = site_of(request), language_of(request), participant_of(request)
     say = load_language(language).text
-    require_guesses_left(request)
+    if sure != "yes":
+        raise HTTPException(400)
+    if participant is None:
+        require_guesses_left(request)
     name = participant.name if participant else site.store.participant_with_code(code.strip().upper())
-    if name is None or sure != "yes":
+    if name is None:
         count_wrong_guess(request)
         fault = say("This code is not known. Please check it, or write to us.")
         return render(request, "withdraw.html", language=language, known=False, fault=fault, status=404)
@@ -324,9 +327,8 @@ def _fault(site: Site, visit: Visit, step: Step, submission: Submission, now: da
         return str(fault)
     if values:
         return f"{next(iter(values))} is not asked here"
-    if step.trial is None:
-        return None
-    durations_s = {role: clip.duration_s for role, clip in site.clips_on(step.trial).items()}
+    clips = site.clips_on(step.trial) if step.trial else {}
+    durations_s = {role: clip.duration_s for role, clip in clips.items()}
     shown_at = visit.shown_at(step.key)
     elapsed_s = (now - shown_at).total_seconds() if shown_at else 0.0
     return playback_fault(
