@@ -35,6 +35,7 @@ STYLE: Any = {  # of matplotlib
     "svg.hashsalt": "analysis",
     "svg.fonttype": "path",
     "pdf.fonttype": 42,
+    "ps.fonttype": 42,  # matplotlib's PDFs take the size of subsets from here: each font is embedded once
     "savefig.dpi": 300,
 }
 
