@@ -7,6 +7,7 @@ they leave behind is marked as simulated, so that it can never be mistaken for d
 from __future__ import annotations
 
 import hashlib
+import http.client
 import json
 import math
 import random
@@ -14,12 +15,12 @@ import re
 import tempfile
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlencode, urlsplit
 from uuid import UUID
-
-import httpx
 
 from study.chance import Stream
 from study.export import export_responses
@@ -100,20 +101,62 @@ def take_part(site: Site, address: str, number: int, shares: Mapping[str, float]
     """Take the study as one simulated participant, from the door to the end or to dropping out."""
     rng = random.Random(f"{site.protocol.seed}/{number}")
     manner = MANNERS[rng.choices(list(shares), weights=list(shares.values()))[0]]
-    # Plain HTTP on this machine: there are no certificates to load.
-    with httpx.Client(base_url=address, follow_redirects=True, timeout=60, verify=False) as browser:
-        browser.post("/start").raise_for_status()
-        seen = browser.post("/consent", data={"agreed": "yes", "language": site.protocol.languages[0]})
+    with closing(Browser(address)) as browser:
+        browser.submit("/start", {})
+        seen = browser.submit("/consent", {"agreed": "yes", "language": site.protocol.languages[0]})
         session: Session | None = None
-        while found := PAGE.search(seen.raise_for_status().text):
+        while found := PAGE.search(seen):
             if rng.random() < manner.drops_out:
                 return
             page = json.loads(found[1])
             session = session or site.store.session(page["participant"])
             assert session is not None, "a page of the session was shown"
-            answered = _answer(site, session, page, manner, rng)
-            browser.post(page["answer_url"], json=answered).raise_for_status()
-            seen = browser.get(page["next_url"])
+            browser.send(page["answer_url"], _answer(site, session, page, manner, rng))
+            seen = browser.open(page["next_url"])
+
+
+class Browser:
+    """As much of a browser as a rehearsal needs: one connection, a cookie, and the way where it is sent on."""
+
+    def __init__(self, address: str) -> None:
+        self._connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=60)
+        self._cookies: dict[str, str] = {}
+
+    def open(self, path: str) -> str:
+        """The page at an address."""
+        return self._request("GET", path)
+
+    def submit(self, path: str, form: Mapping[str, str]) -> str:
+        """The page that a form leads to."""
+        return self._request("POST", path, urlencode(form), "application/x-www-form-urlencoded")
+
+    def send(self, path: str, content: object) -> None:
+        """Send what a page's scripts send."""
+        self._request("POST", path, json.dumps(content), "application/json")
+
+    def close(self) -> None:
+        """Hang up."""
+        self._connection.close()
+
+    def _request(self, method: str, path: str, body: str | None = None, kind: str | None = None) -> str:
+        headers = {"Cookie": "; ".join(f"{name}={value}" for name, value in self._cookies.items())}
+        if kind:
+            headers["Content-Type"] = kind
+        try:
+            self._connection.request(method, path, body, headers)
+            answer = self._connection.getresponse()
+        except (BrokenPipeError, ConnectionResetError):  # servers hang up on who is silent for some seconds
+            self.close()
+            return self._request(method, path, body, kind)
+        text = answer.read().decode()
+        for given in answer.headers.get_all("Set-Cookie", ()):
+            name, _, value = given.partition(";")[0].partition("=")
+            self._cookies[name] = value
+        if answer.status == http.HTTPStatus.SEE_OTHER:
+            return self.open(answer.headers["Location"])
+        if answer.status >= http.HTTPStatus.BAD_REQUEST:
+            raise RuntimeError(f"{method} {path}: {answer.status} {text}")
+        return text
 
 
 def _answer(
