@@ -26,8 +26,8 @@ class Pages:
     def __init__(self, path: Path, title: str, footer: str, alarm: str = "") -> None:
         from matplotlib import rc_context
 
-        type_3 = {"pdf.fonttype": 3, "ps.fonttype": 3}  # enough for a screen and a printer
-        self._style = rc_context({**STYLE, **type_3})
+        # type 3 is enough for a screen and a printer
+        self._style = rc_context({**STYLE, "pdf.fonttype": 3, "ps.fonttype": 3})
         self.path, self.title, self.footer, self.alarm = path, title, footer, alarm
         self.page: Figure | None = None
         self.number = 0
