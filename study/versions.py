@@ -7,12 +7,13 @@ before an amendment goes on with the version they consented to.
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from stimuli.manifest import Manifest
-from study.protocol import Protocol, load_protocol
+from study.protocol import Problem, Protocol, ProtocolError, load_protocol
+from study.protocol.amendments import SHORT
 
 FOLDER = "versions"
 
@@ -24,6 +25,28 @@ class Version:
     sha256: str
     protocol: Protocol
     manifest: Manifest
+
+
+def refuse_undeclared(protocol: Protocol, known_hashes: Collection[str]) -> None:
+    """Refuse to go on with participants of another protocol, unless an amendment says why it was changed.
+
+    `known_hashes` are those of the protocols that the participants so far took part in.
+    """
+    problems = [
+        Problem(
+            protocol.path,
+            None,
+            None,
+            "",
+            f"has changed since participants took part in {known[:SHORT]}. Take the change back, gather the "
+            "new data elsewhere (--data), or declare it:\n"
+            f"amendments:\n  - {{date: <today>, reason: <why>, replaces: {known[:SHORT]}}}",
+        )
+        for known in sorted(known_hashes)
+        if not protocol.continues(known)
+    ]
+    if problems:
+        raise ProtocolError(problems)
 
 
 def keep_version(protocol: Protocol, manifest: Manifest, data: Path) -> None:

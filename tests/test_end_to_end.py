@@ -36,10 +36,16 @@ parts:
     reference: medium
     order: {principles: williams, levels: balanced}
     ask: [{choose: {item: intensity, text: It is, options: {lower: lower, higher: higher}, sides: balanced}}]
+  happier:
+    title: Which looks happier?
+    stimuli: {gesture: wave, modulations: [joy, sadness], prefix: beside_}
+    pairs: all
+    ask: [{prefer: {item: happier, text: Which of the two looks happier?}}]
 participants: {planned: 8}
 analysis:
   H1: {part: recognition, test: one-sample t, of: target, against: midpoint, alternative: greater}
   H2: {part: intensity, test: independent t, compare: [high, low], outcome: higher, alternative: greater}
+  H3: {part: happier, test: binomial, compare: [joy, sadness], alternative: greater}
 """
 
 
@@ -61,7 +67,9 @@ def run(*arguments: str | Path) -> str:
 def test_a_protocol_becomes_a_report(small: Path) -> None:
     run("render", small)
     manifest = json.loads((small / "stimuli" / "manifest.json").read_text())
-    assert set(manifest["stimuli"]) == {"joy", "sadness", "time_low", "time_medium", "time_high"}
+    again = {"beside_joy", "beside_sadness"}  # of the same motions, so the same files
+    assert set(manifest["stimuli"]) == {"joy", "sadness", "time_low", "time_medium", "time_high"} | again
+    assert manifest["stimuli"]["beside_joy"]["file"] == manifest["stimuli"]["joy"]["file"]
     for clip in manifest["stimuli"].values():
         with av.open(str(small / "stimuli" / clip["file"])) as file:
             assert sum(1 for _ in file.decode(video=0)) == clip["frames"]
@@ -72,17 +80,21 @@ def test_a_protocol_becomes_a_report(small: Path) -> None:
     out = small / "report"
     run("rehearse", small, "-n", "8", "--out", out)
     with (out / "responses.csv").open(encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["part"] in {"recognition", "intensity"}]
+        rows = [row for row in csv.DictReader(file) if row["part"] in {"recognition", "intensity", "happier"}]
     assert {row["session"] for row in rows} == {"simulated"}
-    assert len(rows) == 8 * (2 * 2 + 2)
+    assert len(rows) == 8 * (2 * 2 + 2 + 1)
     assert len({(row["participant"], row["stimulus"], row["item"]) for row in rows}) == len(rows)
     files = {clip["file_sha256"] for clip in manifest["stimuli"].values()}
-    assert {row["stimulus_sha256"] for row in rows} <= files
+    assert {sha256 for row in rows for sha256 in row["stimulus_sha256"].split()} <= files
 
     results = json.loads((out / "results.json").read_text())
     assert results["recognition"]["joy"]["n"] == 8
     counts = results["intensity"]["time"]["counts"]
     assert sum(counts["high"].values()) == sum(counts["low"].values()) == 8
+    preferred = [row["response"] for row in rows if row["part"] == "happier"]
+    assert preferred.count("beside_joy") + preferred.count("beside_sadness") == 8
+    (compared,) = results["happier"].values()
+    assert compared["test"]["k"] == preferred.count("beside_joy")
     assert "simulated" in (out / "report.html").read_text().lower()
 
 

@@ -53,7 +53,7 @@ def test_groups_are_compared_on_the_means_of_series(gone_through: Path) -> None:
     assert sorted(map(sorted, seen.values())) == [["fluent"]] * 6 + [["stiff"]] * 6
     found = results(gone_through)
     assert found["participants"]["excluded"] == []
-    compared = found["impression"]["animacy"]
+    compared = found["impression_H2"]["animacy"]
     animacy = [
         r
         for r in rows
@@ -63,7 +63,8 @@ def test_groups_are_compared_on_the_means_of_series(gone_through: Path) -> None:
         points = [int(row["response"]) for row in animacy if row["stimulus"] == group]
         assert compared["summaries"][group]["mean"] == pytest.approx(sum(points) / len(points))
     assert compared["student"]["df"] == 10
-    assert set(found["impression"]) >= {"anthropomorphism", "animacy", "likeability"}
+    series = {name: set(found[f"impression_{name}"]) for name in ("H1", "H2", "H3")}
+    assert series == {"H1": {"anthropomorphism"}, "H2": {"animacy"}, "H3": {"likeability"}}
 
 
 @pytest.mark.parametrize("gone_through", ["online"], indirect=True)

@@ -263,6 +263,10 @@ class Protocol(Written):
         }
         return completed(text, self.languages, folder=self.folder, values=values)
 
+    def continues(self, sha256: str) -> bool:
+        """Whether the protocol of this hash is this one, or one that a declared amendment replaces."""
+        return sha256 == self.sha256 or sha256.startswith(tuple(a.replaces for a in self.amendments))
+
     @property
     def files(self) -> tuple[str, ...]:
         """The files that the YAML names: gestures, and texts that are not written in it."""

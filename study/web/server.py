@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import shlex
 import signal
 import socket
 import threading
@@ -19,10 +20,9 @@ from fastapi import FastAPI
 
 from stimuli.errors import InputError
 from study.participants import Kind
-from study.protocol import amendments
 from study.storage import Store, open_store
 from study.storage.backups import BackupTimer, back_up
-from study.versions import earlier_versions, keep_version
+from study.versions import earlier_versions, keep_version, refuse_undeclared
 from study.web.app import create_app
 from study.web.credentials import open_credentials
 from study.web.site import Door, Site, clips_of, utc_now
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 SOFTWARE = f"expressive-motion-study {version('expressive-motion-study')}"
 BACKUP_EVERY_S = 30 * 60
+EVERYWHERE = "0.0.0.0"
+ELSEWHERE = "192.0.2.1"  # of the addresses that are nobody's (RFC 5737)
 GRACE_S = 5  # for requests under way when the server is told to stop
 
 
@@ -68,24 +70,35 @@ def serve(
     if missing:
         raise InputError(
             f"{clips_folder}: {len(missing)} of {len(protocol.stimuli)} clips are not there "
-            f"({', '.join(missing[:5])}{' …' if len(missing) > 5 else ''}). Run `study render` first."
+            f"({', '.join(missing[:5])}{' …' if len(missing) > 5 else ''}). "
+            f"Run `study render {shlex.quote(str(protocol.path))}` first."
         )
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # what stops services ends it like Ctrl-C
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
     with closing(store), store.held(), _backed_up(store, data_folder / "backups"):
         credentials, password = open_credentials(data_folder)
-        amendments.check(protocol, store.protocol_hashes())
+        refuse_undeclared(protocol, store.protocol_hashes())
         clips = clips_of(manifest, clips_folder)
         keep_version(protocol, manifest, data_folder)
         site = Site(
             protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse
         ).with_earlier(earlier_versions(protocol, data_folder), clips_folder)
         server, listener = _server(create_app(site), host, port)
-        address = f"http://{host}:{listener.getsockname()[1]}"
+        address = f"http://{_reached_by(host)}:{listener.getsockname()[1]}"
         links = Links(f"{address}/", f"{address}/experimenter", password)
         threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
         with suppress(KeyboardInterrupt):  # uvicorn finishes what is under way and raises the signal again
             server.run(sockets=[listener])
+
+
+def _reached_by(host: str) -> str:
+    """What others call this machine, where it listens on all its addresses: the one by which it sends."""
+    if host != EVERYWHERE:
+        return host
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as outward, suppress(OSError):
+        outward.connect((ELSEWHERE, 9))  # which sends nothing
+        return str(outward.getsockname()[0])
+    return "127.0.0.1"
 
 
 def _backed_up(store: Store, folder: Path) -> AbstractContextManager[object]:

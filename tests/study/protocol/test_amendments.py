@@ -3,7 +3,7 @@
 import pytest
 
 from study.protocol import ProtocolError
-from study.protocol.amendments import check
+from study.versions import refuse_undeclared
 
 
 def amended(written, replaces):
@@ -13,27 +13,27 @@ def amended(written, replaces):
 
 def test_the_first_participants_and_an_unchanged_protocol_need_no_amendment(load, written):
     protocol = load(written)
-    check(protocol, set())
-    check(protocol, {protocol.sha256})
+    refuse_undeclared(protocol, set())
+    refuse_undeclared(protocol, {protocol.sha256})
 
 
 def test_a_changed_protocol_is_refused_and_says_what_to_write(load, written):
     before = load(written).sha256
     after = load(written | {"seed": 7})
     with pytest.raises(ProtocolError, match="has changed since participants took part") as refused:
-        check(after, {before})
+        refuse_undeclared(after, {before})
     assert f"replaces: {before[:12]}" in str(refused.value)
 
 
 def test_a_declared_change_is_let_through_and_so_is_the_next(load, written):
     first = load(written).sha256
     once = amended(written | {"seed": 7}, first[:12])
-    check(load(once), {first})
+    refuse_undeclared(load(once), {first})
     second = load(once).sha256
     twice = once | {"seed": 8}
     with pytest.raises(ProtocolError):
-        check(load(twice), {first, second})
-    check(load(amended(twice, second)), {first, second})
+        refuse_undeclared(load(twice), {first, second})
+    refuse_undeclared(load(amended(twice, second)), {first, second})
 
 
 @pytest.mark.parametrize(
