@@ -116,7 +116,7 @@ def take_part(site: Site, address: str, number: int, shares: Mapping[str, float]
 
 
 class Browser:
-    """As much of a browser as a rehearsal needs: one connection, a cookie, and the way where it is sent on."""
+    """As much of a browser as a rehearsal needs: a connection, cookies, and going where it is sent on."""
 
     def __init__(self, address: str) -> None:
         self._connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=60)

@@ -121,12 +121,12 @@ def _message(detail: ErrorDetails, fields: Iterable[str]) -> str:
     )
 
 
-_SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}
+_SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0, "d": 86_400.0}
 
 
 def _seconds(value: object) -> float:
-    """Read `0.5 s`, `800 ms`, `2 min` or `1 h` as seconds."""
-    match = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*(ms|s|min|h)\s*", str(value))
+    """Read `0.5 s`, `800 ms`, `2 min`, `1 h` or `14 d` as seconds."""
+    match = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*(ms|s|min|h|d)\s*", str(value))
     if not match:
         raise wrong("must be a time with its unit, such as 0.5 s, 800 ms or 2 min")
     return float(match[1]) * _SECONDS[match[2]]
@@ -135,5 +135,5 @@ def _seconds(value: object) -> float:
 Seconds = Annotated[
     float,
     BeforeValidator(_seconds),
-    WithJsonSchema({"type": "string", "pattern": r"^\s*\d+(\.\d+)?\s*(ms|s|min|h)\s*$"}),
+    WithJsonSchema({"type": "string", "pattern": r"^\s*\d+(\.\d+)?\s*(ms|s|min|h|d)\s*$"}),
 ]

@@ -50,6 +50,7 @@ class Participants(Written):
     stop: Literal["when complete", "by hand"] = "when complete"
     """When nobody else may begin: as many as planned have completed, or the experimenter closes the study."""
     abandoned_after: Seconds = 3600.0  # without an answer; the place in the design is then given to the next
+    links_last: Seconds = 90 * 86_400.0  # a link or code with which nobody has begun by then opens nothing
     exclude: Exclusions = Exclusions()
     recruitment: Recruitment = Recruitment()
     peeking: bool = False  # whether the report may be seen before as many as planned have completed

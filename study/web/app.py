@@ -70,6 +70,10 @@ def create_app(site: Site) -> FastAPI:
                 say("This page is not here"),
                 say("The address may be mistyped. Please use the link you were given."),
             ),
+            410: (
+                say("This invitation has expired"),
+                say("Please ask the experimenter for a new one."),
+            ),
             429: (
                 say("Please wait a little"),
                 say("There were too many attempts. Please try again in a minute."),

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import re
+from datetime import timedelta
 from typing import Annotated
 
 from fastapi import APIRouter, Form, Request
 from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
-from study.participants import Contact, new_participant, new_token, token_of_code, token_sha256
+from study.participants import (
+    Contact,
+    Participant,
+    new_participant,
+    new_token,
+    token_of_code,
+    token_sha256,
+)
 from study.web.language import load_language
 from study.web.limits import address_of, count_wrong_guess, limits_of, require, require_guesses_left
 from study.web.pages import render
@@ -70,9 +78,11 @@ def start(request: Request) -> Response:
 def link(request: Request, token: str) -> Response:
     """A personal link. The token leaves the address at once and stays in a cookie no script can read."""
     require_guesses_left(request)
-    if site_of(request).store.participant(token_sha256(token)) is None:
+    invited = site_of(request).store.participant(token_sha256(token))
+    if invited is None:
         count_wrong_guess(request)
         raise HTTPException(404)
+    _require_in_time(request, invited)
     return remember(request, token)
 
 
@@ -81,11 +91,21 @@ def code(request: Request, code: Annotated[str, Form(max_length=40)]) -> Respons
     """A personal code, for where one types and does not click."""
     require_guesses_left(request)
     token, language = token_of_code(code), language_of(request)
-    if site_of(request).store.participant(token_sha256(token)) is None:
+    invited = site_of(request).store.participant(token_sha256(token))
+    if invited is None:
         count_wrong_guess(request)
         say = load_language(language).text
         return _door(request, language, fault=say("This code is not known."))
+    _require_in_time(request, invited)
     return remember(request, token)
+
+
+def _require_in_time(request: Request, invited: Participant) -> None:
+    """An invitation that is not followed in time opens nothing any more; whoever has begun may go on."""
+    site = site_of(request)
+    last = timedelta(seconds=site.protocol.participants.links_last)
+    if site.clock() - invited.created_at > last and site.store.session(invited.name) is None:
+        raise HTTPException(410)
 
 
 # Handing the browser on

@@ -8,6 +8,7 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from study.protocol import Protocol, load_protocol
@@ -218,3 +219,35 @@ class Visit:
 def visit(page: Page, address: str) -> Visit:
     """A participant who has yet to come in."""
     return Visit(page, address)
+
+
+RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}
+
+
+class Inspector:
+    """Somebody who looks at pages and keeps what is wrong with them."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.faults: list[str] = []
+
+    def look(self) -> None:
+        """Run axe-core, and see that nothing hangs over the edge."""
+        found = Axe().run(self.page, options=RULES).response["violations"]
+        here = f"{self.page.url} {self.page.locator('h1').inner_text()}"
+        self.faults += [
+            f"{here}: {fault['id']}: {node['html']}" for fault in found for node in fault["nodes"]
+        ]
+        if self.page.evaluate("document.documentElement.scrollWidth > innerWidth"):
+            self.faults.append(f"{here}: wider than the screen")
+
+    def visit(self, address: str) -> None:
+        """Go there and look."""
+        self.page.goto(address)
+        self.look()
+
+
+@pytest.fixture
+def inspector(page: Page) -> Inspector:
+    """An inspector before a small screen."""
+    return Inspector(page)

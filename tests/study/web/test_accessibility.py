@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from study.web.app import create_app
@@ -17,39 +16,9 @@ pytestmark = [
     pytest.mark.parametrize("page", ["narrow German"], indirect=True),
 ]
 PASSWORD = "correct horse"  # as in the fixture `site`
-RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}
 
 
-class Inspector:
-    """Somebody who looks at pages and keeps what is wrong with them."""
-
-    def __init__(self, page: Page) -> None:
-        self.page = page
-        self.faults: list[str] = []
-
-    def look(self) -> None:
-        """Run axe-core, and see that nothing hangs over the edge."""
-        found = Axe().run(self.page, options=RULES).response["violations"]
-        here = f"{self.page.url} {self.page.locator('h1').inner_text()}"
-        self.faults += [
-            f"{here}: {fault['id']}: {node['html']}" for fault in found for node in fault["nodes"]
-        ]
-        if self.page.evaluate("document.documentElement.scrollWidth > innerWidth"):
-            self.faults.append(f"{here}: wider than the screen")
-
-    def visit(self, address: str) -> None:
-        """Go there and look."""
-        self.page.goto(address)
-        self.look()
-
-
-@pytest.fixture
-def inspector(page: Page) -> Inspector:
-    """An inspector before a small screen."""
-    return Inspector(page)
-
-
-def test_axe_finds_nothing_on_the_participant_s_pages(inspector: Inspector, page: Page, site: Site) -> None:
+def test_axe_finds_nothing_on_the_participant_s_pages(inspector, page: Page, site: Site) -> None:
     with running(create_app(replace(site, kind="simulated", door="kiosk"))) as address:
         inspector.visit(address)
         page.get_by_role("button", name="Starten").click()
@@ -84,7 +53,7 @@ def test_axe_finds_nothing_on_the_participant_s_pages(inspector: Inspector, page
     assert inspector.faults == []
 
 
-def test_axe_finds_nothing_where_something_is_wrong(inspector: Inspector, page: Page, site: Site) -> None:
+def test_axe_finds_nothing_where_something_is_wrong(inspector, page: Page, site: Site) -> None:
     with running(create_app(replace(site, door="link"))) as address:
         page.goto(address)
         page.get_by_label("Ihr persönlicher Code").fill("wrong")
@@ -115,7 +84,7 @@ def test_axe_finds_nothing_where_something_is_wrong(inspector: Inspector, page: 
     assert inspector.faults == []
 
 
-def test_axe_finds_nothing_on_the_experimenter_s_pages(inspector: Inspector, page: Page, site: Site) -> None:
+def test_axe_finds_nothing_on_the_experimenter_s_pages(inspector, page: Page, site: Site) -> None:
     with running(create_app(replace(site, door="kiosk"))) as address:
         inspector.visit(f"{address}/experimenter")
         page.get_by_label("Passwort").fill("wrong")

@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from study.export import responses_csv
+from study.participants import new_participant, new_personal_code, token_of_code
 from study.web.site import Site
 
 pytestmark = pytest.mark.xdist_group("browser")
@@ -159,6 +160,33 @@ def test_who_withdraws_is_deleted_and_can_not_go_on(visit, page: Page, site: Sit
     assert list(site.store.responses("participant")) == []
     [note] = site.store.withdrawals()
     assert note.responses == 1
+
+
+def test_a_personal_code_is_typed_and_the_code_of_the_end_deletes_from_another_device(
+    browser: Browser, visit, page: Page, site: Site
+) -> None:
+    code = new_personal_code()
+    invited = new_participant(token_of_code(code), kind="participant", created_at=site.clock())
+    site.store.add_participant(invited)
+    page.goto(visit.address)
+    page.get_by_text("I have a personal code").click()
+    page.get_by_label("Your personal code").fill(code.upper())
+    page.get_by_role("button", name="Go on").click()
+    visit.consent()
+    visit.proceed()
+    session = site.store.session(invited.name)
+    assert session is not None
+    other = browser.new_context(locale="en-GB").new_page()
+    other.goto(f"{visit.address}/withdraw")
+    for typed, said in (("AAAAA-AAAAA", "This code is not known"), (session.completion_code, "are deleted")):
+        other.get_by_label("Your code").fill(typed.lower())
+        other.get_by_role("checkbox").check()
+        other.get_by_role("button", name="Withdraw and delete").click()
+        expect(other.get_by_role("main")).to_contain_text(said)
+    other.context.close()
+    visit.press_continue()
+    expect(page.get_by_role("heading", name="Welcome")).to_be_visible()
+    assert site.store.progress() == []
 
 
 def test_the_language_is_changed_on_the_first_page_and_kept(visit, page: Page, site: Site) -> None:

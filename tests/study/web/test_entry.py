@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from datetime import timedelta
 from pathlib import Path
 
 import httpx
@@ -87,6 +88,28 @@ def test_a_personal_code_opens_the_session_however_it_is_typed(visitor: httpx.Cl
     assert visitor.post("/code", data={"code": "aaaaa-aaaaa"}).status_code == 404
     for typed in (code, code.upper(), code.replace("-", ""), f" {code.replace('-', ' ')} "):
         assert "Information and consent" in visitor.post("/code", data={"code": typed}).text
+
+
+def test_an_invitation_not_followed_in_time_opens_nothing_and_whoever_began_goes_on(site: Site) -> None:
+    codes = [new_personal_code() for _ in range(2)]
+    for code in codes:
+        invited = new_participant(token_of_code(code), kind="participant", created_at=site.clock())
+        site.store.add_participant(invited)
+    days = [0.0]
+    later = replace(site, clock=lambda: site.clock() + timedelta(days=days[0]))
+    with running(create_app(later)) as address:
+
+        def tries(code: str) -> tuple[int, int]:
+            with httpx.Client(base_url=address, follow_redirects=True) as client:
+                by_link = client.get(f"/p/{token_of_code(code)}")
+                by_code = client.post("/code", data={"code": code})
+                if by_code.status_code == 200 and code == codes[0]:
+                    agree(client)
+                return by_link.status_code, by_code.status_code
+
+        assert [tries(code) for code in codes] == [(200, 200)] * 2
+        days[0] = 91
+        assert [tries(code) for code in codes] == [(200, 200), (410, 410)]
 
 
 def test_guessing_is_slowed_down_and_nobody_is_locked_out_for_good(visitor: httpx.Client, site: Site) -> None:

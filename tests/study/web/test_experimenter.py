@@ -11,6 +11,7 @@ from pathlib import Path
 
 import httpx
 import pytest
+import segno
 
 from study.simulation import take_part
 from study.storage import open_store
@@ -159,6 +160,24 @@ def test_a_study_is_paused_from_the_page(experimenter: httpx.Client, rehearsed: 
     )
 
 
+def modules_of(picture: str) -> list[list[int]]:
+    """The dark (1) and light (0) modules of a QR code drawn as one path of horizontal strokes."""
+    width, scale = (
+        int(re.findall(known, picture)[0]) for known in (r'viewBox="0 0 (\d+)', r"scale\((\d+)\)")
+    )
+    border, x, y = 2, 0.0, 0.0
+    dark = set()
+    for command, numbers in re.findall(r"([Mmh])([-\d. ]+)", re.findall(r' d="([^"]+)"', picture)[0]):
+        values = [float(number) for number in re.findall(r"-?[\d.]+", numbers)]
+        if command == "h":
+            dark |= {(int(y), int(x) + step) for step in range(int(values[0]))}
+            x += values[0]
+        else:
+            x, y = (values[0], values[1]) if command == "M" else (x + values[0], y + values[1])
+    inside = range(border, width // scale - border)
+    return [[int((row, column) in dark) for column in inside] for row in inside]
+
+
 def test_invitations_are_cards_with_pictures_of_their_links(
     experimenter: httpx.Client, rehearsed: Site
 ) -> None:
@@ -167,6 +186,8 @@ def test_invitations_are_cards_with_pictures_of_their_links(
     links = re.findall(r'href="(http://\S+/p/[\w-]{24})"', sheet)
     codes = re.findall(r'class="code">([a-z0-9-]{11})<', sheet)
     assert len(set(links)) == len(set(codes)) == sheet.count("<svg") == 3
+    for link, picture in zip(links, re.findall(r"<svg.*?</svg>", sheet, re.DOTALL), strict=True):
+        assert modules_of(picture) == [list(row) for row in segno.make(link, error="m", micro=False).matrix]
     for link, code in zip(links, codes, strict=True):
         for answer in (httpx.get(link), httpx.post(f"{experimenter.base_url}/code", data={"code": code})):
             assert answer.headers["location"] == "/study"

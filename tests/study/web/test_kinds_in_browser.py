@@ -13,10 +13,7 @@ from study.export import responses_csv
 from study.protocol import Protocol, load_protocol
 from study.web.site import Site
 
-pytestmark = [
-    pytest.mark.xdist_group("browser"),
-    pytest.mark.parametrize("page", ["wide", "narrow"], indirect=True),
-]
+pytestmark = pytest.mark.xdist_group("browser")
 
 ASKING = """
 study: asking
@@ -40,6 +37,7 @@ parts:
       - rank: {text: What matters most?, items: [speed, size, smoothness]}
       - attention: {text: Please choose “green”., options: [red, green], expected: green}
       - differential: {set: godspeed animacy, points: 7}
+      - text: {item: impression, text: What did you think?}
   experts:
     if: {experience: often}
     title: For experts
@@ -75,11 +73,13 @@ def begin(page: Page, address: str, experience: str) -> None:
     expect(page.get_by_label("in a hurry")).to_be_enabled()
 
 
-def test_sliders_ranks_and_checks_by_keyboard(page: Page, address: str, site: Site) -> None:
+@pytest.mark.parametrize("page", ["wide", "narrow"], indirect=True)
+def test_sliders_ranks_and_checks_by_keyboard(page: Page, inspector, address: str, site: Site) -> None:
     begin(page, address, "never")
     page.get_by_role("button", name="Continue", exact=True).click()
     expect(page.locator("#notice")).to_have_text("Please answer every question.")
     expect(page.get_by_label("in a hurry")).to_be_focused()
+    inspector.look()  # with something missing
 
     page.keyboard.press("ArrowRight")  # from the middle, where no mark was
     page.get_by_label("calm", exact=True).focus()
@@ -94,7 +94,9 @@ def test_sliders_ranks_and_checks_by_keyboard(page: Page, address: str, site: Si
     page.get_by_label("green").check()
     for row in page.get_by_role("radiogroup", name="Please rate").all():
         row.get_by_role("radio").nth(4).check()
-    assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
+    page.get_by_label("What did you think?").fill("=1+1")
+    inspector.look()
+    assert inspector.faults == []
     proceed(page)
     expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()
 
@@ -103,6 +105,7 @@ def test_sliders_ranks_and_checks_by_keyboard(page: Page, address: str, site: Si
     assert given["hurried"] == "51" and given["calm"] == "50"
     assert (given["size"], given["smoothness"], given["speed"]) == ("1", "2", "3")
     assert given["attention"] == "green" and given["lively"] == "5"
+    assert given["impression"] == "'=1+1", "no formula in a spreadsheet"
     assert site.store.session(next(iter(site.store.progress())).participant.name).completed_at is not None
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from study.simulation import take_part
 from study.web.app import create_app
 from study.web.server import running
 from study.web.site import Site
@@ -94,6 +96,32 @@ def test_the_next_participant_finds_nothing_of_the_one_before(visit, page: Page,
     for _ in range(3):
         page.go_back()
         expect(page.get_by_role("heading", name=re.compile("Welcome|Next participant"))).to_be_visible()
+
+
+def test_the_report_is_sealed_until_all_have_come_and_the_study_is_closed_by_hand(
+    site: Site, page: Page
+) -> None:
+    def analyse(_: Path, out: Path) -> None:
+        out.mkdir()
+        (out / "report.html").write_text("the report")
+
+    rehearsal = replace(site, kind="simulated", analyse=analyse)
+    with running(create_app(rehearsal)) as address:
+        page.goto(f"{address}/experimenter")
+        page.get_by_label("Password").fill(PASSWORD)
+        page.get_by_role("button", name="Log in").click()
+        expect(page.get_by_text("The report is sealed until")).to_be_visible()
+        expect(page.get_by_role("link", name="Report so far")).to_have_count(0)
+        for number in range(site.protocol.participants.planned):
+            take_part(rehearsal, address, number, {"attentive": 1.0})
+        page.reload()
+        with page.expect_download() as download:
+            page.get_by_role("link", name="Report so far").click()
+        assert download.value.path().read_text() == "the report"
+        page.get_by_role("button", name="Close: nobody else can begin").click()
+        expect(page.get_by_role("heading", name="The study is closed")).to_be_visible()
+        page.goto(address)
+        expect(page.get_by_text("The study is not open at the moment")).to_be_visible()
 
 
 def test_a_sheet_of_invitations_fits_its_paper(desk: Page, tmp_path) -> None:

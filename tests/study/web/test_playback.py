@@ -126,6 +126,38 @@ def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site
     assert site.store.event_counts("video_failed") == {}
 
 
+def test_a_clip_that_stalls_is_said_and_on_record(visit, page: Page, site: Site) -> None:
+    held_back: list[Route] = []
+
+    def half(route: Route) -> None:
+        """The first half of a clip at once, the other half when it is let go."""
+        content = next(
+            clip for clip in site.clips.values() if clip.name in route.request.url
+        ).path.read_bytes()
+        begin = int(route.request.headers.get("range", "bytes=0-")[6:].partition("-")[0])
+        if route.request.resource_type != "media":
+            route.fulfill(status=503)
+        elif begin and len(held_back) == 0:
+            held_back.append(route)
+        else:
+            part = content[begin:] if begin else content[: len(content) // 2]
+            headers = {
+                "Content-Range": f"bytes {begin}-{begin + len(part) - 1}/{len(content)}",
+                "Accept-Ranges": "bytes",
+                "Content-Type": "video/mp4",
+            }
+            route.fulfill(status=206, body=part, headers=headers)
+
+    page.context.route("**/clips/*", half)
+    come_to_the_practice(visit)
+    page.get_by_role("button", name="Play").click()
+    expect(page.locator("figure [role=status]")).to_have_text("One moment, the video is loading …")
+    expect(page.get_by_role("radio").first).to_be_disabled()
+    half(held_back[0])
+    expect(page.locator("figure [role=status]")).to_have_text("Watched")
+    assert "waiting" in {happening.name for happening in view_sent(visit, site).happenings}
+
+
 def test_a_video_that_fails_is_said_noted_and_can_be_tried_again(visit, page: Page, site: Site) -> None:
     page.context.route("**/clips/*", lambda route: route.fulfill(status=503))
     come_to_the_practice(visit)

@@ -91,6 +91,28 @@ def test_behind_a_proxy_cookies_are_secure_and_allowances_are_each_visitor_s(sit
         assert httpx.post(f"{address}/code", data={"code": "wrong"}).status_code == 404
 
 
+def test_behind_a_proxy_invitations_name_the_host_that_participants_use(site: Site) -> None:
+    proxied = FORWARDED | {"Host": "study.example.org"}
+    with running(create_app(site), host="0.0.0.0") as address:
+        port = address.rpartition(":")[2]
+        for base, headers, expected in (
+            (f"http://127.0.0.1:{port}", proxied, "https://study.example.org/p/"),
+            (f"http://localhost:{port}", {}, f"http://localhost:{port}/p/"),
+        ):
+            entered = httpx.post(
+                f"{base}/experimenter/login", data={"password": "correct horse"}, headers=headers
+            )
+            login = headers | {"Cookie": entered.headers["set-cookie"].partition(";")[0]}
+            page = httpx.get(f"{base}/experimenter", headers=login).text
+            token = re.findall(r'name="form_token" value="(\w+)"', page)[0]
+            sheet = httpx.post(
+                f"{base}/experimenter/links",
+                data={"form_token": token, "count": 1},
+                headers=login | {"Origin": expected.removesuffix("/p/")},
+            )
+            assert f'href="{expected}' in sheet.text
+
+
 def test_one_participant_cannot_flood_the_study(site: Site) -> None:
     app = create_app(site)
     app.state.limits = replace(Limits(), sendings=replace(Limits().sendings, most=3, per_s=0.001))
