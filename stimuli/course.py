@@ -6,6 +6,7 @@ share s = t / tau of the motion's duration, 0 at the start and 1 at its end; the
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from stimuli.errors import InputError
 from stimuli.robots.model import Relation, Robot
 from stimuli.trajectory import FloatArray
 
@@ -73,6 +75,14 @@ class Course:
     goal_lag_s: float = 0.0  # … with this time constant; 0: at once …
     goal_since: float = 0.0  # … from this share of time on
     until_then: Course | None = None  # whose goals are headed for before that
+
+    def column(self, joint: str, place: str) -> int:
+        """Where a joint stands; InputError, naming the place that names the joint, where there is none."""
+        if joint in self.joints:
+            return self.joints.index(joint)
+        near = difflib.get_close_matches(joint, self.joints, 1)
+        hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(self.joints)}"
+        raise InputError(f"{place}: {self.robot.name} has no joint {joint!r}{hint}")
 
     @property
     def rate(self) -> float:

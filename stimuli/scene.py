@@ -33,6 +33,7 @@ FORESHORTENING = (
 )
 BACKDROP = (0.82, 0.82, 0.82)
 SHADOW = "contact_shadow"  # the name of its patch of floor
+STANDS_M = 0.01  # a link this near to the floor stands on it
 
 LIGHTS = (  # direction it shines in, diffuse, specular
     ((-0.55, -0.38, -0.74), 0.42, 0.30),  # key, from the front, above and the robot's left
@@ -77,19 +78,20 @@ def extent(model: mujoco.MjModel, robot: Robot) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Foot:
-    """Where the robot meets the floor."""
+    """Where the robot meets the floor: on one link, or on several, which then stay where they are."""
 
-    link: str
+    link: str  # "world" where several links stand
     middle: FloatArray  # (3,) on the floor, in the link's frame
     radius: float  # m
 
 
 def find_foot(model: mujoco.MjModel, robot: Robot) -> Foot:
-    """The link with the lowest point at home, and the footprint of its lowest 10 cm."""
+    """The links whose lowest point is on the floor at home, and the footprint of their lowest 10 cm."""
     data, parts = at_home(model, robot)
-    lowest = min(range(model.ngeom), key=lambda geom: float(parts[geom][:, 2].min()))
-    body = model.geom_bodyid[lowest]
-    points = np.vstack([part for part, of in zip(parts, model.geom_bodyid, strict=True) if of == body])
+    lowest = np.array([part[:, 2].min() for part in parts])
+    standing = np.unique(model.geom_bodyid[lowest < lowest.min() + STANDS_M])
+    points = np.vstack([part for part, of in zip(parts, model.geom_bodyid, strict=True) if of in standing])
+    body = standing[0] if len(standing) == 1 else 0
     footprint = points[points[:, 2] < 0.10][:, :2]
     middle = np.append((footprint.min(axis=0) + footprint.max(axis=0)) / 2, 0.0)
     turn = data.xmat[body].reshape(3, 3)

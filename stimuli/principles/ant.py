@@ -106,10 +106,7 @@ class Ant(Principle):
         """Columns of the joints that anticipate."""
         if not self.joints:
             return [int(column) for column in np.argsort(-course.amplitudes, kind="stable")[: self.count]]
-        unknown = sorted(set(self.joints) - set(course.joints))
-        if unknown:
-            raise InputError(f"ant.joints: no joint {unknown[0]!r}. Known: {', '.join(course.joints)}")
-        return [course.joints.index(joint) for joint in self.joints]
+        return [course.column(joint, "ant.joints") for joint in self.joints]
 
     def _intensity_for(self, course: Course, column: int) -> float:
         """The intensity at which a joint dips as far as wanted."""

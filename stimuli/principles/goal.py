@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, ClassVar
@@ -90,7 +89,7 @@ class Goal(Principle):
         demonstrated = course.goal
         moments: dict[float, dict[int, float]] = {}
         for name, positions in self.joints.items():
-            column = _column(name, course)
+            column = course.column(name, "goal")
             for moment, position in (positions if isinstance(positions, dict) else {0.0: positions}).items():
                 moments.setdefault(moment, {})[column] = position
         if self.look_at is not None:
@@ -121,15 +120,7 @@ class Goal(Principle):
             gaze = looking_at(point, course.robot, pose)
         except InputError as err:
             raise InputError(f"goal.look_at: {err}") from err
-        return {_column(name, course): position for name, position in gaze.items()}
-
-
-def _column(name: str, course: Course) -> int:
-    if name in course.joints:
-        return course.joints.index(name)
-    near = difflib.get_close_matches(name, course.joints, 1)
-    hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(course.joints)}"
-    raise InputError(f"goal.{name}: {course.robot.name} has no such joint{hint}")
+        return {course.column(name, "goal.look_at"): position for name, position in gaze.items()}
 
 
 def _positions(name: str, value: object) -> float | dict[float, float]:

@@ -13,6 +13,7 @@ import numpy as np
 from stimuli.robots.facts import assembled, read_facts
 from stimuli.robots.model import Robot
 from stimuli.robots.shapes import Loft, Mesh, ball, dome, joined, lathe, ring
+from stimuli.trajectory import FloatArray
 
 if TYPE_CHECKING:
     import mujoco
@@ -85,18 +86,24 @@ def base(radius: float) -> dict[str, Mesh]:
 def head(half_axes: Sequence[float]) -> dict[str, Mesh]:
     """An ellipsoid above the tilting joint, with a dark face."""
     lifted = np.array([0.0, 0.0, 0.08])
-    skull = ball(1.0, 40).bent(lambda points: points * half_axes + lifted)
-    face = dome(1.0, 1.0, 36, 8).facing(np.array([1.0, 0.0, 0.0]), np.zeros(3))
-    face = face.bent(
-        lambda p: np.stack([0.032 + 0.104 * p[:, 0], 0.098 * p[:, 1], 0.082 + 0.078 * p[:, 2]], axis=-1)
-    )
+    skull = ball(1.0, 64).bent(lambda points: points * half_axes + lifted)
+
+    def on_the_skull(points: FloatArray) -> FloatArray:
+        """The unit disc laid over the front as a mask, its rim sunk into the skull."""
+        side, up = 0.76 * points[:, 1], 0.38 * points[:, 2] - 0.02
+        out = np.where(np.hypot(points[:, 1], points[:, 2]) > 0.99, 0.99, 1.008)
+        towards = np.stack([np.cos(up) * np.cos(side), np.cos(up) * np.sin(side), np.sin(up)], axis=-1)
+        over: FloatArray = out[:, None] * towards * half_axes + lifted
+        return over
+
+    face = dome(1.0, 1.0, 64, 16).facing(np.array([1.0, 0.0, 0.0]), np.zeros(3)).bent(on_the_skull)
     return {"shell": skull, "dark": face}
 
 
 def eyes() -> dict[str, Mesh]:
     """Two round lights that look up and down together."""
     forward = np.array([1.0, 0.0, 0.0])
-    places = [np.array([0.049, y, 0.004]) for y in (0.042, -0.042)]
+    places = [np.array([0.055, y, 0.0]) for y in (0.040, -0.040)]
     glint = np.array([0.0055, 0.006, 0.008])
     return {
         "light": joined(*(ring(0.021, 0.005, 28, 6).facing(forward, place) for place in places)),

@@ -81,6 +81,16 @@ def test_randomization_is_the_same_for_the_same_seed_and_grows_in_proportion(see
     assert np.abs(plain + p * (once - plain) - strong).max() < 1e-11
 
 
+def test_randomization_moves_the_joints_named_alone_and_as_with_the_others(robot, demonstrate):
+    shown = demonstrate(1)
+    noise = {"intensity": 1, "seed": 3}
+    parameters = ({}, {"rand": noise}, {"rand": {**noise, "joints": [shown.joints[1]]}})
+    still, every, named = (moved(robot, shown, **modulation)[0] for modulation in parameters)
+    assert np.array_equal(named[:, 1], every[:, 1])
+    assert np.array_equal(named[:, 0], still[:, 0])
+    assert not np.array_equal(every[:, 0], still[:, 0])
+
+
 @pytest.mark.parametrize(
     "modulation", [{"exa": 4}, {"follow": 5}, {"ant": 0.4}, {"rand": 2}, {"arc": -8}, {"sec": 1}], ids=str
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -12,7 +13,7 @@ from stimuli.framing import closest_camera
 from stimuli.rendering import Renderer
 from stimuli.robots import ROBOTS, load_robot
 from stimuli.robots.model import Robot
-from stimuli.scene import PRESETS
+from stimuli.scene import PRESETS, SHADOW, find_foot, studio
 from stimuli.trajectory import Trajectory
 
 RAISED = {"RShoulderPitch": -1.2, "RShoulderRoll": -0.3, "RElbowRoll": 0.4, "RHand": 0.98}
@@ -114,3 +115,19 @@ def test_the_closest_camera_is_the_one_nothing_leaves(pepper: Robot) -> None:
 def test_presets_go_from_close_to_far() -> None:
     heights = [top - bottom for bottom, top in PRESETS.values()]
     assert heights == sorted(heights)
+
+
+def test_a_robot_on_two_feet_stands_in_one_shadow_that_stays_when_it_moves() -> None:
+    legs = "".join(
+        f"<body pos='0 {y} 0'><joint name='{leg}' axis='0 1 0'/><geom type='box' size='.1 .04 .5'/></body>"
+        for leg, y in (("left", 0.2), ("right", -0.2))
+    )
+    spec = mujoco.MjSpec.from_string(
+        f"<mujoco><worldbody><body pos='0 0 .5'>{legs}</body></worldbody></mujoco>"
+    )
+    home = {"left": 0.0, "right": 0.0}
+    biped = Robot(name="biped", title="", joints=(), home=home, build=spec.copy)
+    foot = find_foot(spec.compile(), biped)
+    assert (foot.link, foot.radius) == ("world", pytest.approx(0.24))
+    np.testing.assert_allclose(foot.middle, 0, atol=1e-6)
+    assert studio(biped, width=WIDTH, height=HEIGHT).geom(SHADOW).bodyid == 0
