@@ -5,6 +5,7 @@ Five million rows take some bytes per row and column, whatever the length of the
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -20,6 +21,7 @@ from analysis.fields import Fields, Places, read_fields, read_header
 WORD = 8  # bytes compared at once
 KEEP = np.array([(1 << 8 * length) - 1 for length in range(WORD + 1)], dtype=np.uint64)  # of the first bytes
 NO_WORD = (1 << 8 * WORD) - 1  # larger than any: UTF-8 has no byte 255
+MOMENT = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d")
 
 Words = NDArray[np.uint64]
 Numbers = NDArray[np.int32]
@@ -65,6 +67,20 @@ def read_columns(path: Path, names: Iterable[str]) -> dict[str, Column]:
             below = 0
         deque(under_way, maxlen=0)
     return {name: column.whole() for name, column in gathered.items()}
+
+
+def time_span(path: Path, name: str = "answered_at") -> tuple[str, str] | None:
+    """The first and the last moment in a column, written as in ISO 8601; None where there are none."""
+    header = read_header(path)
+    if name not in header:
+        return None
+    place, span = header.index(name), set[bytes]()
+    for fields in read_fields(path, len(header)):
+        stretches = zip(fields.starts[:, place].tolist(), fields.ends[:, place].tolist(), strict=True)
+        found = {fields.text[start:end] for start, end in stretches}
+        span |= {moment for moment in found if MOMENT.match(moment)}
+        span = {min(span), max(span)} if span else span
+    return (min(span).decode(), max(span).decode()) if span else None
 
 
 class _Gathered:

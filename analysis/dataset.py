@@ -17,9 +17,11 @@ from typing import TYPE_CHECKING, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from analysis.columns import time_span
 from analysis.fields import ResponsesError, read_header
 from analysis.naming import MISSING, UNKNOWN, Naming, option_of
-from analysis.rows import OPTIONAL, REQUIRED, Rows, named_columns, read_rows
+from analysis.open_answers import OpenAnswers, open_answers
+from analysis.rows import OPTIONAL, REQUIRED, Rows, among, named_columns, read_rows
 from analysis.wide import answer_columns, read_wide, unknown_names
 from study.participants import Kind
 from study.protocol.parts import series_of
@@ -96,6 +98,8 @@ class Responses:
     )  # part → (participants, stimuli), when seen
     median_rt_s: FloatArray | None = None  # (participants,) time per answer
     kind: Kind = "participant"
+    open: tuple[OpenAnswers, ...] = ()
+    answered: tuple[str, str] | None = None  # first and last moment of an answer, where the file says them
 
     @property
     def note(self) -> str:
@@ -122,6 +126,7 @@ class Responses:
             participants=tuple(name for name, keep in zip(self.participants, kept, strict=True) if keep),
             questions=tuple(question.of_participants(kept) for question in self.questions),
             checks=tuple(check.of_participants(kept) for check in self.checks),
+            open=tuple(one.of_participants(kept) for one in self.open),
             trials={part: trials[kept] for part, trials in self.trials.items()},
             median_rt_s=None if self.median_rt_s is None else self.median_rt_s[kept],
         )
@@ -138,6 +143,9 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     """
     naming = Naming.of(protocol, columns or {})
     rows = _read(path, protocol, naming)
+    if rows.number == 0:
+        raise ResponsesError(f"{path}: holds no answers below its header")
+    rows.refuse_two_spellings()
     empty = [
         Answers(
             part=part.id,
@@ -169,6 +177,8 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
         trials=_trials(rows, protocol),
         median_rt_s=_median_rt_s(rows, which >= 0),
         kind=_kind(rows),
+        open=tuple(open_answers(rows, protocol)),
+        answered=time_span(path),
     )
 
 
@@ -281,41 +291,17 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_], naming: Naming
     written = {answer: option_of(answer, options) for answer in rows.names("response")}
     answers = rows.codes("response", written, unknown=UNKNOWN)[mine]
     rows.refuse_if(
-        _among(mine, answers == UNKNOWN),
+        among(mine, answers == UNKNOWN),
         lambda row: (
             f"response {rows.value('response', row)!r} is not an answer to "
             f"{rows.value('item', row)}; known: {', '.join(filter(None, options))}, or empty for none"
         ),
     )
     cells = np.ravel_multi_index((items, stimuli, rows.person[mine]), shape)
-    _refuse_duplicates(rows, mine, cells, int(np.prod(shape)))
+    rows.refuse_second(mine, cells, int(np.prod(shape)))
     codes = np.full(shape, MISSING, dtype=np.int8)
     codes.reshape(-1)[cells] = answers
     return replace(question, codes=codes.T)
-
-
-def _refuse_duplicates(rows: Rows, mine: NDArray[np.bool_], cells: NDArray[np.int64], size: int) -> None:
-    answered = np.zeros(size, dtype=bool)
-    answered[cells] = True
-    if np.count_nonzero(answered) == cells.size:
-        return
-    again = np.ones(cells.size, dtype=bool)
-    again[np.unique(cells, return_index=True)[1]] = False
-
-    def message(row: int) -> str:
-        cell = cells[np.count_nonzero(mine[:row])]
-        earlier = int(np.flatnonzero(mine)[np.argmax(cells == cell)])
-        answered = ", ".join(rows.value(column, row) for column in ("participant", "stimulus", "item"))
-        return f"second answer to ({answered}); the first is in line {rows.line(earlier)}. Keep one of them"
-
-    rows.refuse_if(_among(mine, again), message)
-
-
-def _among(mine: NDArray[np.bool_], bad: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which of all rows are bad, given which of `mine` are."""
-    marked = mine.copy()
-    marked[mine] = bad
-    return marked
 
 
 def _trials(rows: Rows, protocol: Protocol) -> dict[str, FloatArray]:

@@ -1,15 +1,21 @@
-"""Answers that no hypothesis is about: means where they are numbers, else how often each was given."""
+"""Answers that no hypothesis is about: means where they are numbers, else how often each was given.
+
+Of words of one's own only how many wrote something: they are to be read, in the file of responses.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from analysis.dataset import Answers
+from analysis.open_answers import OpenAnswers
 from analysis.plan import Findings
 from analysis.statistics.samples import Moments, moments
+
+Spread = tuple[Moments, int, float | None, float | None, float | None]  # with n, median, least and most
 
 
 @dataclass(frozen=True)
@@ -32,8 +38,29 @@ class Counts:
     says: str = "how many gave each answer"
 
 
-def described(findings: Findings) -> Iterator[Means | Counts]:
+@dataclass(frozen=True)
+class Numbers:
+    """Numbers that were asked for."""
+
+    part: str
+    rows: Mapping[str, Spread]  # by stimulus and item
+    columns: tuple[str, ...] = ("mean (SD)", "n", "median", "least", "most")
+    says: str = "numbers"
+
+
+@dataclass(frozen=True)
+class Written:
+    """How many wrote something in words of their own."""
+
+    part: str
+    rows: Mapping[str, tuple[int, ...]]  # by stimulus and item
+    columns: tuple[str, ...] = ("written", "left empty")
+    says: str = "answers in words; they stand in the file of responses"
+
+
+def described(findings: Findings) -> Iterator[Means | Counts | Numbers | Written]:
     """Every question without a hypothesis, and the scores of every series."""
+    yield from opened(findings.responses.open)
     tested = {(outcome.part, outcome.answers.items) for outcome in findings.outcomes.values()}
     for answers in findings.responses.questions:
         if answers.series:
@@ -66,3 +93,25 @@ def counts(answers: Answers) -> Counts:
         answers.options,
         {row: tuple(int(np.sum(codes == option)) for option in options) for row, codes in given.items()},
     )
+
+
+def opened(answers: Sequence[OpenAnswers]) -> Iterator[Counts | Numbers | Written]:
+    """Numbers, words, and what participants say of themselves, part by part."""
+    for part in dict.fromkeys(one.part for one in answers):
+        here = {" ".join(filter(None, (one.stimulus, one.item))): one for one in answers if one.part == part}
+        if numbers := {row: _spread(one) for row, one in here.items() if one.kind == "number"}:
+            yield Numbers(part, numbers)
+        if texts := {row: one.given for row, one in here.items() if one.kind == "text"}:
+            yield Written(
+                part, {row: (len(given) - given.count(""), given.count("")) for row, given in texts.items()}
+            )
+        for row, one in here.items():
+            if one.options:
+                yield Counts(part, one.options, {row: tuple(map(one.given.count, one.options))})
+
+
+def _spread(answers: OpenAnswers) -> Spread:
+    x = answers.numbers
+    if x.size == 0:
+        return moments(x), 0, None, None, None
+    return moments(x), x.size, float(np.median(x)), float(x.min()), float(x.max())

@@ -53,15 +53,21 @@ def read_header(path: Path) -> list[str]:
         raise ResponsesError(f"{path}: cannot be read: {error.strerror}") from error
     if first in {b"\xff\xfe", b"\xfe\xff"}:
         raise ResponsesError(f"{path}: is UTF-16 (Excel's 'Unicode text'); save the file as CSV UTF-8")
+    if first == b"PK":
+        raise ResponsesError(f"{path}: is a workbook or an archive; save the table as CSV UTF-8")
     with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
-        columns = next(csv.reader(file, delimiter=delimiter(path)), [])
+        columns = next(filter(None, csv.reader(file, delimiter=delimiter(path))), [])
+    if not columns:
+        raise ResponsesError(f"{path}: is empty")
+    if any("\0" in column for column in columns):
+        raise ResponsesError(f"{path}:1: holds a zero byte; save the file as CSV UTF-8")
     if twice := [column for column in columns if columns.count(column) > 1]:
         raise ResponsesError(f"{path}:1: column {twice[0]!r} stands twice")
     return columns
 
 
 def read_fields(path: Path, columns: int) -> Iterator[Fields]:
-    """The rows of a file, the header first; blank lines are no rows, values missing at a row's end empty."""
+    """The rows of a file, the header first; blank lines are no rows."""
     mark = ord(delimiter(path))
     line, rest = 1, b""
     with path.open("rb") as file:
@@ -113,32 +119,30 @@ class _Block:
         starts = np.empty_like(self.ends)
         starts[0], starts[1:] = 0, self.ends[:-1] + 1
         rows = self.ends.size // columns
-        if self.ends.size == rows * columns > rows and self.last[columns - 1 :: columns].all():
+        whole = columns > 1 and np.count_nonzero(self.last) == rows and self.ends.size == rows * columns
+        if whole and self.last[columns - 1 :: columns].all():
             starts, ends = starts.reshape(rows, columns), self.ends.reshape(rows, columns)
         else:
-            starts, ends = self._aligned(starts, columns)
+            starts, ends = self._without_blank_lines(starts, columns)
         if self.quoted:
             self._refuse_stray_quotes()
             within = self.body[starts] == QUOTE
             starts, ends = starts + within, ends - within
         return Fields(self.text + bytes(8), starts, ends)
 
-    def _aligned(self, starts: Places, columns: int) -> tuple[Places, Places]:
-        """Starts and ends of rows of unequal length, (rows, columns); what is missing is empty."""
+    def _without_blank_lines(self, starts: Places, columns: int) -> tuple[Places, Places]:
+        """Starts and ends of the values of each row, (rows, columns)."""
         first = np.concatenate(([True], self.last[:-1]))
         blank = first & self.last & (starts == self.ends)
         starts, ends, last = starts[~blank], self.ends[~blank], self.last[~blank]
         row = np.cumsum(last) - last
         sizes = np.bincount(row)
-        if (sizes > columns).any():
-            bad = int(np.argmax(sizes > columns))
+        if (sizes != columns).any():
+            bad = int(np.argmax(sizes != columns))
             place = int(starts[row == bad][0])
-            raise self._error(place, f"has {sizes[bad]} values, but the header names {columns} columns")
-        column = np.arange(row.size) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-        all_ends = np.repeat(ends[last], columns).reshape(-1, columns)
-        all_starts = all_ends.copy()
-        all_starts[row, column], all_ends[row, column] = starts, ends
-        return all_starts, all_ends
+            values = "1 value" if sizes[bad] == 1 else f"{sizes[bad]} values"
+            raise self._error(place, f"has {values}, but the header names {columns} columns")
+        return starts.reshape(-1, columns), ends.reshape(-1, columns)
 
     def _refuse_other_bytes(self) -> None:
         try:

@@ -70,8 +70,10 @@ def _paint_targets(figure: FigureBase, *, outcome: Targets, labels: Mapping[str,
 
 def _scale(axes: Axes, scale: tuple[float, float]) -> None:
     """The whole scale as the vertical axis, and nothing beyond it."""
-    axes.set_ylim(scale[0] - 0.25, scale[1] + 0.25)
-    axes.set_yticks(np.arange(scale[0], scale[1] + 1))
+    low, high = scale
+    margin = (high - low) / 16
+    axes.set_ylim(low - margin, high + margin)
+    axes.set_yticks(np.arange(low, high + 1) if high - low <= 10 else np.linspace(low, high, 5))
 
 
 def _strips(
@@ -214,7 +216,9 @@ def _paint_compared(figure: FigureBase, *, outcome: Levels, labels: Mapping[str,
     assert answers.scale is not None
     axes = figure.add_subplot()
     values = answers.on(comparison.item)
+    low, high = answers.scale
     items = len(answers.series.get(comparison.item, (comparison.item,)))
+    bar = max(0.3 / items, (high - low) / 80)
     places, names = [], []
     for x, (name, stimuli) in enumerate(comparison.pairs.items()):
         for level, stimulus, colour, marker, aside in zip(
@@ -222,7 +226,7 @@ def _paint_compared(figure: FigureBase, *, outcome: Levels, labels: Mapping[str,
         ):
             one = outcome.results[name].summaries[level]
             column = (x + aside, values[:, answers.stimuli.index(stimulus)])
-            _strips(axes, [column], width=0.36, colour=colour, height=max(0.3 / items, 0.05))
+            _strips(axes, [column], width=0.36, colour=colour, height=bar)
             if one.mean is not None:
                 axes.errorbar(
                     x + aside, one.mean, yerr=one.se or 0, color=colour, ecolor=INK, marker=marker,

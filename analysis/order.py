@@ -22,8 +22,11 @@ class Order:
 
 
 def order_of(outcome: Outcome, shown: FloatArray) -> Order | None:
-    """Order effects of an outcome, given the place of each clip, (participants, stimuli); None if unknown."""
-    if np.isnan(shown).all():
+    """Order effects of an outcome, given the place of each clip, (participants, stimuli).
+
+    None where places are unknown, or nobody saw a second clip.
+    """
+    if np.max(np.sum(~np.isnan(shown), axis=1), initial=0) < 2:
         return None
     scores = scores_of(outcome)
     places, follows = _counts(shown)

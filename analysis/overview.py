@@ -39,7 +39,7 @@ def _paint_flow(figure: FigureBase, *, flow: Flow, left_out: list[str]) -> None:
     axes.set_xlim(0, 1)
     axes.set_ylim(0, 1)
     arrow = {"arrowstyle": "-|>", "color": INK, "linewidth": 0.7, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", (0.2, 0.2), (0.2, 0.8), arrowprops=arrow)
+    axes.annotate("", (0.2, 0.18), (0.2, 0.8), arrowprops=arrow | {"shrinkB": 14})  # at the box's edge
     axes.annotate("", (0.4, 0.5), (0.2, 0.5), arrowprops=arrow)
     reasons = "".join(f"\n{line}" for line in left_out)
     for x, y, text, align in (
@@ -70,7 +70,7 @@ def draw_forest(findings: Findings, labels: Mapping[str, str]) -> Drawing | None
     return Drawing(
         name="effects",
         paint=partial(_paint_forest, rows=rows),
-        height_in=0.45 + ROW_IN * len(rows),
+        height_in=0.62 + ROW_IN * len(rows),
         caption="Size of every effect: Cohen's d with its exact 95% interval. "
         "An effect without variance has no d; its exact test decides.",
         alt="; ".join(

@@ -49,6 +49,8 @@ def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mappin
             pages.write(f"– {threat}")
         pages.heading("Where the numbers come from")
         pages.write(f"Responses SHA-256 {results.provenance.responses_sha256}", size=7.5)
+        if answered := results.provenance.answered:
+            pages.write(f"Answered {' to '.join(answered)}", size=7.5)
         pages.write(f"Protocol SHA-256 {results.provenance.protocol_sha256}", size=7.5)
         pages.write(", ".join(f"{k} {v}" for k, v in results.provenance.software.items()), size=7.5)
 
@@ -74,7 +76,7 @@ def _outcome(
             head = LEVEL_HEAD if outcome.comparison.outcome else RATING_HEAD
             pages.tabulate(head, _level_rows(outcome, labels), LEVEL_WIDTHS)
     for key, sentence in sentences(outcome).items():
-        pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
+        pages.write(f"{labels.get(key, key.capitalize())}: {apa.unbroken(sentence)}.", size=8)
 
 
 def _target_rows(outcome: Targets, labels: Mapping[str, str]) -> list[list[str]]:

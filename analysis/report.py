@@ -26,6 +26,7 @@ from analysis.tables import (
     targets_csv,
     targets_latex,
 )
+from analysis.versions import of_one_study
 from analysis.web import html
 from analysis.words import labels_of
 
@@ -42,7 +43,8 @@ def analyse(csv: Path, protocol: Protocol, out: Path, columns: Mapping[str, str]
     input gives equal bytes. `columns` says where the file calls a column otherwise. Raises ResponsesError
     where the file cannot be read without guessing, PlanError where the plan does not fit the study.
     """
-    responses = read_responses(csv, protocol, columns)
+    with of_one_study(csv, protocol):
+        responses = read_responses(csv, protocol, columns)
     findings = carry_out(responses, protocol)
     provenance = Provenance(
         study=protocol.study,
@@ -50,6 +52,7 @@ def analyse(csv: Path, protocol: Protocol, out: Path, columns: Mapping[str, str]
         responses_sha256=responses.sha256,
         software={"Python": python_version()} | {package: version(package) for package in PACKAGES},
         seed=protocol.seed,
+        answered=responses.answered,
     )
     results = Results(findings, provenance, look_further(findings, responses, protocol))
     drawings = draw(findings, labels_of(protocol))

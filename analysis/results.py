@@ -35,6 +35,7 @@ class Provenance:
     responses_sha256: str
     software: Mapping[str, str]
     seed: int = 0  # of the study's orders
+    answered: tuple[str, str] | None = None  # when the first and the last answer were given
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,7 @@ class Results:
             "data": self.findings.responses.kind,
             "protocol_sha256": self.provenance.protocol_sha256,
             "responses_sha256": self.provenance.responses_sha256,
+            "answered_at": self.provenance.answered,
             "software": dict(self.provenance.software),
             "seed": self.provenance.seed,
             "alpha": self.findings.alpha,

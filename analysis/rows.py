@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -37,7 +38,7 @@ class Rows:
     @cached_property
     def participants(self) -> tuple[str, ...]:
         """Who answered, sorted."""
-        return tuple(sorted(name for name in self.names("participant") if name))
+        return tuple(sorted(name for name in self.names("participant") if name.strip()))
 
     @cached_property
     def person(self) -> NDArray[np.int32]:
@@ -65,6 +66,37 @@ class Rows:
             record = 1 + self.skipped + row // self.per_record
             return next(line for number, line in enumerate(filled) if number == record)
 
+    def refuse_second(self, mine: NDArray[np.bool_], cells: NDArray[np.int64], number: int) -> None:
+        """Refuse two of the rows `mine` that answer the same; `cells` says what each does, of `number`."""
+        answered = np.zeros(number, dtype=bool)
+        answered[cells] = True
+        if np.count_nonzero(answered) == cells.size:
+            return
+        again = np.ones(cells.size, dtype=bool)
+        again[np.unique(cells, return_index=True)[1]] = False
+
+        def message(row: int) -> str:
+            cell = cells[np.count_nonzero(mine[:row])]
+            earlier = int(np.flatnonzero(mine)[np.argmax(cells == cell)])
+            answered = ", ".join(self.value(column, row) for column in ("participant", "stimulus", "item"))
+            return (
+                f"second answer to ({answered}); the first is in line {self.line(earlier)}. Keep one of them"
+            )
+
+        self.refuse_if(among(mine, again), message)
+
+    def refuse_two_spellings(self) -> None:
+        """Refuse the file if 1, 01, 1.0 and "1 " stand beside each other: one participant, or several?"""
+        spelled: dict[str, str] = {}
+        for name in self.participants:
+            plain = re.sub(r"^0+(?=\d)|(?<=\d)[.,]0+$", "", name.strip())
+            first = spelled.setdefault(plain, name)
+            if first != name:
+                self.refuse_if(
+                    self.codes("participant", {name: 1}) == 1,
+                    f"participant {name!r} is also written {first!r}; write one participant in one way",
+                )
+
     def refuse_if(self, bad: NDArray[np.bool_], message: str | Callable[[int], str]) -> None:
         """Refuse the file at the first bad row."""
         if bad.any():
@@ -74,13 +106,20 @@ class Rows:
             raise ResponsesError(f"{self.path}:{self.line(row)}: {said}{more}")
 
 
+def among(mine: NDArray[np.bool_], bad: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which of all rows are bad, given which of `mine` are."""
+    marked = mine.copy()
+    marked[mine] = bad
+    return marked
+
+
 def read_rows(path: Path, columns: Mapping[str, str], header: Sequence[str], naming: Naming) -> Rows:
     """Read columns as the texts written in the file; `columns` maps our names to those of the file."""
     missing = [name for name in REQUIRED if name not in columns]
     if missing:
         raise ResponsesError(
             f"{path}:1: needs the columns {', '.join(REQUIRED)}; {', '.join(missing)} not among "
-            f"{', '.join(header) or 'none'}. Name them as in --column {missing[0]}=THEIRS, or give one "
+            f"{', '.join(map(repr, header))}. Name them as in --column {missing[0]}=THEIRS, or give one "
             "column per answer, named STIMULUS_ITEM"
         )
     found = read_columns(path, columns.values())

@@ -105,10 +105,10 @@ def _depends(name: str, outcome: Targets) -> Iterator[str]:
         for definition, verdict in one.sensitivity_verdicts.items():
             if verdict.significant != one.verdict.significant:
                 meaning = one.sensitivity[definition].definition
-                turned.setdefault(f"{meaning.says} ({meaning.id})", []).append(stimulus)
+                turned.setdefault(f"by {meaning.id}, {meaning.says}", []).append(stimulus)
     if turned:
         which = "; ".join(f"{meaning}: {', '.join(stimuli)}" for meaning, stimuli in turned.items())
-        yield f"{name}: the decision depends on the definition of chance. It is the opposite by – {which}."
+        yield f"{name}: the decision depends on the definition of chance. Decided otherwise: {which}."
 
 
 def claim(protocol: Protocol, name: str, outcome: Outcome) -> str:

@@ -48,8 +48,10 @@ def test_every_value_reads_back_wherever_blocks_end(
         assert {column.at(row) for row in range(len(rows))} == set(column.values)
 
 
-@pytest.mark.parametrize("text", ["a,b,c\n1,2\n\n4,,6\n\n", "a,b,c\r1,2\r4,,6", "\ufeffa,b,c\n1,2,\n4,,6"])
-def test_blank_lines_are_no_rows_and_missing_ends_are_empty(tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize(
+    "text", ["a,b,c\n1,2,\n\n4,,6\n\n", "a,b,c\r1,2,\r4,,6", "\ufeff\na,b,c\n1,2,\n4,,6"]
+)
+def test_blank_lines_are_no_rows(tmp_path: Path, text: str) -> None:
     path = tmp_path / "r.csv"
     path.write_text(text, encoding="utf-8", newline="")
     found = read_columns(path, ["c", "a"])
@@ -58,6 +60,12 @@ def test_blank_lines_are_no_rows_and_missing_ends_are_empty(tmp_path: Path, text
 
 @pytest.mark.parametrize(("text", "message"), [
     ("a,b\n1,2\n3,4,5\n", r"r.csv:3: has 3 values, but the header names 2 columns"),
+    ("a,b\n1\n2\n", r"r.csv:2: has 1 value, but the header names 2 columns"),
+    ("a,b\n1,2\n3\n", r"r.csv:3: has 1 value, but the header names 2 columns"),
+    ("", r"r.csv: is empty"),
+    ("\ufeff\n\n", r"r.csv: is empty"),
+    ("PK\x03\x04", r"r.csv: is a workbook or an archive"),
+    ("a\0,b\0\n", r"r.csv:1: holds a zero byte"),
     ('a,b\n1,2\n3,"x\ny\n', r"r.csv:3: a row that does not end; is a quotation mark left open"),
     ('a,b\n1,2\n3,4" tall "\n', r"r.csv:3: a stray quotation mark"),
     ('a,b\n1,2\n"3"4,5\n', r"r.csv:3: a stray quotation mark"),

@@ -40,9 +40,9 @@ def test_every_rating_reads_back(paper: Protocol, write: Write) -> None:
 
 
 def test_participants_are_texts_even_where_they_look_like_numbers(paper: Protocol, write: Write) -> None:
-    rows = [("01", "joy", "joy", "4"), ("1", "joy", "joy", "2"), ("1.0", "joy", "joy", "5")]
+    rows = [("01", "joy", "joy", "4"), ("10", "joy", "joy", "2"), ("2.0", "joy", "joy", "5")]
     answers = read_responses(write(rows), paper).answers("recognition")
-    assert sorted(answers.participants) == ["01", "1", "1.0"]
+    assert sorted(answers.participants) == ["01", "10", "2.0"]
 
 
 def test_levels_are_told_apart_by_name_not_by_appearance(paper: Protocol, write: Write) -> None:
@@ -81,16 +81,21 @@ HEADER = "participant,stimulus,item,response\n"
 
 @pytest.mark.parametrize(("text", "message"), [
     ("participant,stimulus,item\n", r"r.csv:1: needs the columns .*; response not among"),
-    ("", r"r.csv:1: needs the columns"),
+    ("", r"r.csv: is empty"),
+    (HEADER, r"r.csv: holds no answers below its header"),
+    (HEADER + "1,joy,joy,4\n01,joy,fear,4\n", r"participant '1' is also written '01'"),
+    (HEADER + "1,joy,joy,4\n1.0,joy,fear,4\n", r"r.csv:3: participant '1.0' is also written '1'"),
+    (HEADER + "P1,joy,joy,4\nP1 ,joy,fear,4\n", r"r.csv:3: participant 'P1 ' is also written 'P1'"),
     ("response," + HEADER, r"r.csv:1: column 'response' stands twice"),
     (HEADER + "P1,joy,joy,6\n", r"r.csv:2: response '6' is not an answer to joy; known: 1, 2, 3, 4, 5"),
     (HEADER + 'P1,joy,joy,4\nP1,"sa\nd",joy,4\n', r"r.csv:4: stimulus 'sa\\nd' is not in the protocol"),
     (HEADER + "\nP1,joy,envy,4\n", r"r.csv:3: item 'envy' is not asked about joy; known: anger, fear"),
     (HEADER + "P1,joy,joy,4\nP2,joy,joy,4\nP1,joy,joy,5\n",
      r"r.csv:4: second answer to \(P1, joy, joy\); the first is in line 2"),
-    (HEADER + "P1\n", r"r.csv:2: stimulus '' is not in the protocol"),
+    (HEADER + "P1\n", r"r.csv:2: has 1 value, but the header names 4 columns"),
     (HEADER + "P1,joy,joy,4,5\nP1,joy,joy,4\n", r"r.csv"),
     (HEADER + ",joy,joy,4\n", r"r.csv:2: has no participant"),
+    (HEADER + " ,joy,joy,4\n", r"r.csv:2: has no participant"),
 ])  # fmt: skip
 def test_what_cannot_be_read_without_guessing_is_refused_at_its_line(
     paper: Protocol, tmp_path: Path, text: str, message: str
@@ -168,6 +173,14 @@ def test_a_wide_table_needs_to_say_who_answered(paper: Protocol, tmp_path: Path)
         read(paper, tmp_path, f"id,{columns}\n1{',3' * 36}\n")
     found = read(paper, tmp_path, f"id,{columns}\n1{',3' * 36}\n", {"participant": "id"})
     assert (found.answers("recognition").ratings == 3).all()
+
+
+def test_the_file_says_when_it_was_answered(paper: Protocol, tmp_path: Path) -> None:
+    head = "answered_at,participant,stimulus,item,response\n"
+    moments = ["2026-11-22T07:01:32.065Z", "2026-10-01T09:00:00.000Z", "", "2026-11-02T00:00:00.000Z"]
+    rows = "".join(f"{moment},P{n},joy,joy,4\n" for n, moment in enumerate(moments))
+    assert read(paper, tmp_path, head + rows).answered == (moments[1], moments[0])
+    assert read(paper, tmp_path, head + "yesterday,P1,joy,joy,4\n").answered is None
 
 
 def test_times_are_numbers_or_refused(paper: Protocol, tmp_path: Path) -> None:

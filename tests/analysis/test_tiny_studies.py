@@ -55,7 +55,7 @@ def answers(draw: st.DrawFn, protocol: Protocol) -> list[tuple[str, str, str, st
     options = draw(st.sampled_from([1, 2, 9]))
     kept = draw(st.sampled_from([1.0, 0.8, 0.3]))
     rows = []
-    for person in range(draw(st.integers(0, 5))):
+    for person in range(draw(st.integers(1, 5))):
         for part in protocol.parts.values():
             shown = rng.sample(part.stimuli, part.shown or len(part.stimuli))
             for trial, stimulus in enumerate(shown, 1):
