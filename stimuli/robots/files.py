@@ -19,8 +19,8 @@ The model may also be `robot_descriptions/NAME` (see `stimuli.robots.description
 from __future__ import annotations
 
 import hashlib
-import itertools
-from collections.abc import Mapping, Sequence
+import inspect
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -33,10 +33,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from scipy.spatial.transform import Rotation
 
 from stimuli.errors import InputError
+from stimuli.outline import placed, places, vertices
 from stimuli.robots.descriptions import PREFIX, find_description
 from stimuli.robots.facts import LOOK, sources_sha256
 from stimuli.robots.model import Joint, JointKind, Relation, Robot, Vector, View
-from stimuli.robots.urdf import Mimic, Urdf, mimicked, read_urdf
+from stimuli.robots.urdf import Mimic, mimicked, read_urdf
 
 KINDS: Mapping[int, JointKind] = {
     int(mujoco.mjtJoint.mjJNT_HINGE): "revolute",
@@ -102,7 +103,8 @@ def robot_from(facts: RobotFile, place: Path) -> Robot:
     body = Body(source, (*(place.parent / folder for folder in facts.search), *search))
     urdf = read_urdf(source, body.search) if source.suffix == ".urdf" else None
     mimics = dict(urdf.mimics) if urdf else {}
-    model = build(body).compile()
+    spec = build(body)
+    model = spec.compile()
     every = _joints(model, source, {**(urdf.velocities if urdf else {}), **facts.velocities}, mimics)
     names = {joint.name for joint in every}
     links = {model.body(index).name for index in range(model.nbody)}
@@ -138,13 +140,14 @@ def robot_from(facts: RobotFile, place: Path) -> Robot:
         head=facts.head,
         view=facts.camera,
         sources=(origin,),
-        sha256=_sha256(facts, source, urdf),
+        sha256=_sha256(facts, spec, model),
     )
 
 
 def build(body: Body) -> mujoco.MjSpec:
     """The model alone: no lights, cameras or floor, no collision shapes where there are visible ones."""
     source = body.source
+    mujoco.mj_clearCache(mujoco.mj_getCache())  # it tells a changed mesh by the second alone
     try:
         if source.suffix == ".urdf":
             urdf = read_urdf(source, body.search)
@@ -179,11 +182,8 @@ def _lowest(model: mujoco.MjModel, positions: Mapping[str, float]) -> float:
     for name, value in positions.items():
         data.joint(name).qpos[0] = value
     mujoco.mj_kinematics(model, data)
-    corners = np.array(list(itertools.product([-1, 1], repeat=3)))
-    boxes = model.geom_aabb[:, None, :3] + corners * model.geom_aabb[:, None, 3:]  # (geoms, 8, 3)
-    up = data.geom_xmat[:, None, 6:]
-    heights = (boxes * up).sum(axis=-1) + data.geom_xpos[:, 2:]
-    return float(heights.min(initial=np.inf)) if len(heights) else 0.0
+    where = places(data)
+    return min((placed(vertices(model, k), where[k])[:, 2].min() for k in range(model.ngeom)), default=0.0)
 
 
 def _joints(
@@ -237,17 +237,12 @@ def _vector(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Vector
     return x, y, z
 
 
-def _sha256(facts: RobotFile, source: Path, urdf: Urdf | None) -> str:
-    """Hash of what the file says, of the model with every mesh and picture, and of the studio."""
+def _sha256(facts: RobotFile, spec: mujoco.MjSpec, model: mujoco.MjModel) -> str:
+    """Hash of what the file says, of all MuJoCo read, meshes and pictures too, and of the studio."""
     digest = hashlib.sha256(sources_sha256(*CODE, *LOOK).encode())
     digest.update(facts.model_dump_json(exclude={"search"}).encode())
-    if urdf:
-        digest.update(urdf.xml.encode())
-        parts: Sequence[bytes] = list(urdf.meshes.values())
-    else:
-        seen = {".stl", ".obj", ".msh", ".png", ".xml"}
-        assets = sorted(file for file in source.parent.rglob("*") if file.suffix.lower() in seen)
-        parts = [file.read_bytes() for file in assets]
-    for part in parts:
-        digest.update(part)
+    digest.update(spec.to_xml().encode())
+    for name, value in inspect.getmembers(model, lambda value: isinstance(value, np.ndarray)):
+        if not name.startswith("_"):  # `_sizes` counts the letters of the files' paths
+            digest.update(value.tobytes())
     return digest.hexdigest()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import shutil
 from pathlib import Path
 
 import mujoco
@@ -26,6 +27,15 @@ URDF = """\
     <limit lower="-1" upper="1.5" velocity="2.5" effort="1"/></joint>
 </robot>
 """
+MJCF = """\
+<mujoco><compiler meshdir="../parts" angle="radian"/><asset><mesh name="arm" file="arm.obj"/></asset>
+  <worldbody><include file="../parts/arm.xml"/></worldbody></mujoco>
+"""
+ARM = """\
+<mujoco><body name="arm"><joint name="lift" axis="0 1 0" range="-1 1" limited="true"/>
+  <geom type="mesh" mesh="arm"/></body></mujoco>
+"""
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 YAML = """\
 robot: two
 title: Two links
@@ -62,6 +72,22 @@ def test_it_is_drawn_by_its_visible_shapes_and_goes_to_a_worker(tmp_path: Path) 
 def test_a_changed_model_changes_the_hash(tmp_path: Path) -> None:
     before = load_robot(write(tmp_path, "two.urdf", URDF), tmp_path).sha256
     assert load_robot(write(tmp_path, "two.urdf", URDF.replace("0.06", "0.07")), tmp_path).sha256 != before
+
+
+def test_a_changed_mesh_or_include_outside_the_folder_changes_the_hash(tmp_path: Path) -> None:
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "robot").mkdir()
+    mesh, arm = tmp_path / "parts" / "arm.obj", tmp_path / "parts" / "arm.xml"
+    mesh.write_text(TETRAHEDRON)
+    arm.write_text(ARM)
+    hashes = [load_robot(write(tmp_path / "robot", "two.xml", MJCF), tmp_path / "robot").sha256]
+    mesh.write_text(TETRAHEDRON.replace("0 0 1", "0 0 0.9"))
+    hashes.append(load_robot("robot.yaml", tmp_path / "robot").sha256)
+    arm.write_text(ARM.replace("-1 1", "-1 2"))
+    hashes.append(load_robot("robot.yaml", tmp_path / "robot").sha256)
+    assert len(set(hashes)) == 3
+    copied = shutil.copytree(tmp_path, tmp_path / "elsewhere")
+    assert load_robot("robot.yaml", copied / "robot").sha256 == hashes[-1]
 
 
 def test_what_cannot_be_used_is_said_with_its_place(tmp_path: Path) -> None:
