@@ -82,6 +82,8 @@ def _principles(name: str, written: Mapping[str, Any], through: tuple[str, ...])
         raise wrong_at((), "must be principles and their values, such as {time: 0.85, exa: 1.3}", entry)
     principles: dict[str, Any] = {}
     if (base := entry.get("extends")) is not None:
+        if not isinstance(base, str):
+            raise wrong_at(("extends",), "must be the name of a modulation", base)
         if base in (*through, name):
             circle = " → ".join((*through, name, base))
             raise wrong_at(("extends",), f"goes in a circle: {circle}", base)
@@ -89,7 +91,10 @@ def _principles(name: str, written: Mapping[str, Any], through: tuple[str, ...])
             raise wrong_at(("extends",), f"is no modulation; {nearest(base, written)}", base)
         principles |= _principles(base, written, (*through, name))
     for word, change in (("plus", float.__add__), ("times", float.__mul__)):
-        for kind, amount in (entry.get(word) or {}).items():
+        changes = entry.get(word, {})
+        if not isinstance(changes, Mapping):
+            raise wrong_at((word,), "must be principles and numbers, such as {exa: 0.1}", changes)
+        for kind, amount in changes.items():
             if not isinstance(principles.get(kind), (int, float)) or not isinstance(amount, (int, float)):
                 raise wrong_at((word, kind), "needs a number that `extends` brings; there is none", amount)
             principles[kind] = round(change(float(principles[kind]), float(amount)), 12)

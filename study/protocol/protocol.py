@@ -32,7 +32,15 @@ from study.protocol.parts import (
 from study.protocol.plan import Analysis, Participants
 from study.protocol.source import Source
 from study.protocol.stimulus import Stimulus
-from study.protocol.texts import Texts, WrittenTexts, completed, files_named_in, shipped, shipped_demographics
+from study.protocol.texts import (
+    Texts,
+    WrittenTexts,
+    completed,
+    files_named_in,
+    shipped,
+    shipped_demographics,
+    without_gaps,
+)
 from study.questions import Asked
 from study.text import Text
 from study.written import Location, Seconds, Written, wrong
@@ -227,9 +235,12 @@ class Protocol(Written):
     @cached_property
     def texts(self) -> Texts:
         """The texts around the questions, the protocol's own or else the shipped ones, ready to be shown."""
+        unknown = [name for name in ("authors", "ethics") if not getattr(self, name)]
         return Texts(
             **{
-                name: self._completed(getattr(self.written_texts, name) or shipped(name))
+                name: self._completed(
+                    getattr(self.written_texts, name) or without_gaps(shipped(name), unknown)
+                )
                 for name in Texts.model_fields
             }
         )

@@ -1,7 +1,8 @@
 """The texts around the questions: shipped in English and German, or a protocol's own.
 
 A text is Markdown, written in the protocol or in a file of its own (a value that ends in `.md`). In it,
-{title}, {contact}, {authors}, {ethics}, {videos} and {minutes} stand for what the study has there.
+{title}, {contact}, {authors}, {ethics}, {videos} and {minutes} stand for what the study has there; a paragraph
+of a shipped text that names what a study leaves open is left out.
 """
 
 from __future__ import annotations
@@ -67,6 +68,20 @@ def files_named_in(text: Text, folder: Path) -> dict[str, Path]:
         for language, words in text.root.items()
         if words.endswith(".md") and "\n" not in words
     }
+
+
+def without_gaps(text: Text, missing: Sequence[str]) -> Text:
+    """The text without the paragraphs that name something missing."""
+    return Text(
+        {
+            language: "\n\n".join(
+                paragraph
+                for paragraph in words.split("\n\n")
+                if not any(f"{{{name}}}" in paragraph for name in missing)
+            )
+            for language, words in text.root.items()
+        }
+    )
 
 
 def completed(text: Text, languages: Sequence[str], *, folder: Path, values: Mapping[str, Text]) -> Text:

@@ -177,3 +177,16 @@ def test_two_parts_with_the_same_stimulus_need_a_prefix(load, written):
         load(written)
     again["stimuli"]["prefix"] = "wave_"
     assert load(written).parts["again"].stimuli == ("wave_joy", "wave_fear")
+
+
+def test_the_shipped_consent_names_who_is_responsible_and_the_approval_where_they_are_given(load, written):
+    told = load(written | {"authors": ["Ada Example", "Ben Example"], "ethics": "2026-017"}).texts.consent
+    open_ = load({name: value for name, value in written.items() if name != "authors"}).texts.consent
+    for language, responsible, approval in (
+        ("en", "Who is responsible", "Ethics approval"),
+        ("de", "Verantwortlich", "Ethikvotum"),
+    ):
+        assert f"**{responsible}.** Ada Example, Ben Example" in told.in_(language)
+        assert f"**{approval}.** 2026-017" in told.in_(language)
+        assert responsible not in open_.in_(language) and approval not in open_.in_(language)
+        assert "hri-lab@example.org" in open_.in_(language)

@@ -1,0 +1,56 @@
+"""Answers gathered with several versions of a protocol: together where that was declared, else refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from analysis.columns import read_columns
+from analysis.fields import ResponsesError, read_header
+from study.protocol.amendments import SHORT
+
+if TYPE_CHECKING:
+    from study.protocol import Protocol
+
+COLUMN = "protocol_sha256"
+
+
+@contextmanager
+def of_one_study(path: Path, protocol: Protocol) -> Iterator[None]:
+    """Read a file, all of whose rows belong to the protocol or to what its amendments replace.
+
+    A table of another program does not say which version its rows have, and is taken as it is.
+    """
+    if COLUMN not in read_header(path):
+        yield
+        return
+    hashes = sorted({*read_columns(path, [COLUMN])[COLUMN].values} - {protocol.sha256, ""})
+    strange = [sha256 for sha256 in hashes if not protocol.continues(sha256)]
+    if strange:
+        raise ResponsesError(
+            f"{path}: was gathered with {_named(strange)}, but {protocol.path} is now "
+            f"{protocol.sha256[:SHORT]}. {_apart(strange[0])} To analyse all together, declare the change "
+            f"under `amendments` with `replaces: {strange[0][:SHORT]}`"
+        )
+    try:
+        yield
+    except ResponsesError as error:
+        if not hashes:
+            raise
+        raise ResponsesError(
+            f"{error}\nSome rows were gathered before an amendment, with {_named(hashes)}. "
+            f"Where they do not fit this version: {_apart(hashes[0])}"
+        ) from error
+
+
+def _named(hashes: list[str]) -> str:
+    return "protocol " + ", ".join(sha256[:SHORT] for sha256 in hashes)
+
+
+def _apart(sha256: str) -> str:
+    return (
+        "To analyse such rows apart, put them into a file of their own and give "
+        f"--protocol DATA/versions/{sha256}."
+    )
