@@ -23,7 +23,7 @@ CONSTANT = [(p, s, i, "5") for p, s, i, _ in ratings(n=6)] + [
     (p, s, i, "higher") for p, s, i, _ in choices(n=6)
 ]
 CASES: dict[str, list[Row]] = {
-    "no answers": [],
+    "no answers": [("P1", "joy", "joy", "")],
     "one participant": [*ratings(n=1), *choices(n=1)],
     "two participants": [*ratings(n=2), *choices(n=2)],
     "everyone answers the same": CONSTANT,
