@@ -36,6 +36,8 @@ class Scale(Question):
         if name is None:
             return value
         sets = {known: one for known, one in question_sets().items() if one.kind == cls.kind}
+        if not isinstance(name, str):
+            raise wrong_at(("set",), "must be the name of a set of questions", name)
         if name not in sets:
             raise wrong_at(("set",), f"is no set of questions here; {nearest(name, sets)}", name)
         chosen = sets[name]
