@@ -97,7 +97,8 @@ def test_any_holes_in_the_data_leave_strict_json(
     paper: Protocol, tmp_path_factory: pytest.TempPathFactory, seed: int, n: int, kept: float
 ) -> None:
     rng = random.Random(seed)
-    rows = [row for row in [*ratings(n, seed), *choices(n)] if rng.random() < kept]
+    first, *more = [*ratings(n, seed), *choices(n)]
+    rows = [first, *(row for row in more if rng.random() < kept)]
     path = tmp_path_factory.mktemp("holes") / "r.csv"
     path.write_text(
         "participant,stimulus,item,response\n" + "".join(",".join(row) + "\n" for row in rows),
