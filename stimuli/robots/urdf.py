@@ -39,6 +39,7 @@ def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
         root = ET.parse(source).getroot()
     except (OSError, ET.ParseError) as error:
         raise InputError(f"{source}: cannot be read as a URDF: {error}") from error
+    _refuse_unfinished(root, source)
     folders = [*search, *source.resolve().parents]
     if root.find("link/visual") is not None:
         _keep_only_what_is_seen(root)
@@ -85,6 +86,26 @@ def mimicked(positions: Mapping[str, float], mimics: Mapping[str, Mimic]) -> dic
         name: mimic.multiplier * positions[mimic.joint] + mimic.offset for name, mimic in mimics.items()
     }
     return {**positions, **following}
+
+
+def _refuse_unfinished(root: ET.Element, source: Path) -> None:
+    """InputError where xacro is left to expand, or a joint's limits are no range."""
+    for element in root.iter():
+        if "xacro" in element.tag or any("${" in value for value in element.attrib.values()):
+            raise InputError(
+                f"{source}: this is xacro still, at <{element.tag.rpartition('}')[2]}>. Expand it first"
+            )
+    for joint in root.iterfind("joint"):
+        limit = joint.find("limit")
+        if limit is None:
+            continue
+        place = f"{source}: joint {joint.get('name')!r}: limit"
+        try:
+            low, high, _ = (float(limit.get(name, 0)) for name in ("lower", "upper", "velocity"))
+        except ValueError as error:
+            raise InputError(f"{place}: {error}") from error
+        if low > high:
+            raise InputError(f"{place}: lower {low:g} is above upper {high:g}")
 
 
 def _keep_only_what_is_seen(root: ET.Element) -> None:

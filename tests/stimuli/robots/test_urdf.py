@@ -17,6 +17,7 @@ from stimuli.relations import relations_of
 from stimuli.rendering import Renderer
 from stimuli.robots import load_robot
 from stimuli.robots.model import Relation, Robot
+from stimuli.robots.urdf import read_urdf
 from stimuli.scene import extent, pose
 
 pytestmark = pytest.mark.filterwarnings("ignore:the matrix subclass")  # pycollada's own
@@ -219,3 +220,17 @@ look: {left: "#ff0000"}
     ):
         with pytest.raises(InputError, match=said):
             load(folder, "a.stl", more=f"search: [../descriptions]\n{wrong}\n")
+
+
+@pytest.mark.parametrize(
+    ("limit", "said"),
+    [
+        ('lower="1" upper="-1"', r"'bend': limit: lower 1 is above upper -1"),
+        ('lower="0" upper="1" velocity="fast"', r"'bend': limit: could not convert string to float: 'fast'"),
+        ('lower="0" upper="${reach}"', r"this is xacro still, at <limit>\. Expand it"),
+    ],
+)
+def test_a_urdf_that_is_not_finished_is_refused(tmp_path: Path, limit: str, said: str) -> None:
+    (tmp_path / "arm.urdf").write_text(f'<robot name="a"><joint name="bend"><limit {limit}/></joint></robot>')
+    with pytest.raises(InputError, match=said):
+        read_urdf(tmp_path / "arm.urdf")
