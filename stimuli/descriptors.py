@@ -14,7 +14,10 @@ DESCRIPTORS = {  # what each is, with its unit; of moving joints together: Eucli
     "amplitude": "peak-to-peak share of the range, mean over moving joints",
     "speed_mean": "shares of range per s",
     "speed_peak": "shares of range per s",
+    "acceleration_mean": "shares of range per s²",
     "acceleration_peak": "shares of range per s²",
+    "jerk_mean": "shares of range per s³",
+    "jerk_peak": "shares of range per s³",
     "jerk_rms": "shares of range per s³",
     "path_length": "shares of range",
     "log_dimensionless_jerk": "nearer to 0 is smoother (Hogan & Sternad 2009)",
@@ -28,6 +31,10 @@ DESCRIPTORS = {  # what each is, with its unit; of moving joints together: Eucli
     "head_forward_mean_m": "m, mean position of the head ahead of the robot's vertical axis",
 }
 
+_EVEN = (
+    1e-6  # duration² · jerk / speed, below which a motion goes evenly: its jerk is rounding, and has no log
+)
+
 STILL = 0.01  # of a joint's range: joints that move less are not counted as moving
 
 UNITS = {
@@ -35,7 +42,10 @@ UNITS = {
     "amplitude": "of range",
     "speed_mean": "1/s",
     "speed_peak": "1/s",
+    "acceleration_mean": "1/s²",
     "acceleration_peak": "1/s²",
+    "jerk_mean": "1/s³",
+    "jerk_peak": "1/s³",
     "jerk_rms": "1/s³",
     "path_length": "of range",
     "hand_width_m": "m",
@@ -61,19 +71,23 @@ def describe(trajectory: Trajectory, robot: Robot) -> dict[str, float]:
     velocity = np.gradient(y, dt, axis=0)
     acceleration = np.gradient(velocity, dt, axis=0)
     jerk = np.gradient(acceleration, dt, axis=0)
-    speed = np.linalg.norm(velocity, axis=1)
+    speed, push, jolt = (np.linalg.norm(rate, axis=1) for rate in (velocity, acceleration, jerk))
     described = {
         "duration_s": trajectory.duration_s,
         "joints_moving": float(moving.sum()),
         "amplitude": float(np.ptp(y, axis=0).mean()) if moving.any() else 0.0,
         "speed_mean": float(speed.mean()),
         "speed_peak": float(speed.max()),
-        "acceleration_peak": float(np.linalg.norm(acceleration, axis=1).max()),
-        "jerk_rms": float(np.sqrt(np.mean(np.sum(jerk**2, axis=1)))),
+        "acceleration_mean": float(push.mean()),
+        "acceleration_peak": float(push.max()),
+        "jerk_mean": float(jolt.mean()),
+        "jerk_peak": float(jolt.max()),
+        "jerk_rms": float(np.sqrt(np.mean(jolt**2))),
         "path_length": float(np.trapezoid(speed, dx=dt)),
     }
     if speed.max() > 0:
-        described["log_dimensionless_jerk"] = log_dimensionless_jerk(speed, jerk, dt)
+        if jolt.max() * trajectory.duration_s**2 > _EVEN * speed.max():
+            described["log_dimensionless_jerk"] = log_dimensionless_jerk(speed, jerk, dt)
         described["sparc"] = sparc(speed, dt)
     return described | _posture(trajectory, robot)
 

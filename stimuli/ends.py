@@ -7,14 +7,36 @@ import numpy as np
 from stimuli.trajectory import FloatArray, Trajectory
 
 MOVING = 0.05  # of the fastest speed anywhere: a demonstration faster than that at an end does not rest there
+WINDOW_S = 0.1  # at an end, over which a noisy demonstration is judged
+CERTAIN = 4.0  # standard errors by which its speed there must exceed that
 EASE_S = 0.2  # of the demonstration, sped up from or slowed down to rest
 
 
 def rests_at_ends(demonstration: Trajectory) -> tuple[bool, bool]:
     """Whether it rests at its start and at its end."""
-    steps = np.abs(np.diff(demonstration.positions, axis=0))
-    allowed = MOVING * steps.max()
-    return bool(steps[0].max() <= allowed), bool(steps[-1].max() <= allowed)
+    y = demonstration.positions
+    dt_s = demonstration.duration_s / (len(y) - 1)
+    return _rests_at_start(y, dt_s), _rests_at_start(y[::-1], dt_s)
+
+
+def _rests_at_start(y: FloatArray, dt_s: float) -> bool:
+    """Whether a motion, (n, d), begins with a slow step, or its slope in the window may be mere noise."""
+    steps = np.abs(np.diff(y, axis=0))
+    n = min(round(WINDOW_S / dt_s), len(y) - 1) + 1
+    slow = bool(steps[0].max() <= MOVING * steps.max())
+    if slow or n < 4:
+        return slow
+    times = (np.arange(n) - (n - 1) / 2) * dt_s
+    slopes = np.abs(times @ y[:n]) / (times @ times)
+    fastest = np.abs(y[n - 1 :] - y[: 1 - n]).max() / ((n - 1) * dt_s)
+    return bool(np.all(slopes <= MOVING * fastest + CERTAIN * _noise(y) / np.sqrt(times @ times)))
+
+
+def _noise(y: FloatArray) -> FloatArray:
+    """Standard deviation of white noise on each joint, (d,), from third differences, free of the motion."""
+    spread: FloatArray = np.median(np.abs(np.diff(y, 3, axis=0)), axis=0)
+    deviation: FloatArray = spread / (0.6745 * np.sqrt(20.0))  # of a normal median, and of 1, 3, 3, 1
+    return deviation
 
 
 def eased(demonstration: Trajectory) -> Trajectory:

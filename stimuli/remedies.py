@@ -9,7 +9,7 @@ from stimuli.attractor import ROUNDING
 from stimuli.course import Course
 from stimuli.dmp import Primitive
 from stimuli.errors import InputError
-from stimuli.feasibility import share_that_fits, violations
+from stimuli.feasibility import in_short, share_that_fits, violations
 from stimuli.principles import Modulation, Principle
 from stimuli.principles.time import Time
 from stimuli.robots.model import Robot
@@ -17,31 +17,48 @@ from stimuli.rollout import integrate, sampled
 from stimuli.trajectory import Trajectory
 
 _BISECTIONS = 12
+_LEAST = 0.005  # of the way from neutral: nobody wants to be advised less
 _TAIL = 1.5  # durations looked at where motions are compared sample by sample
 _LONGEST = 16.0  # times as long is the longest that `fit: scale` tries
 
 
 def advice(primitive: Primitive, modulation: Modulation, robot: Robot) -> str:
-    """One sentence: which intensity would do, or which ones together."""
+    """One sentence: what would do. All that it names was tried, as it is written there."""
+
+    def fits(tried: Modulation) -> bool:
+        return _fits(primitive, tried, robot)
+
+    neutral = violations(primitive.rollout(Modulation(), robot), robot)
+    if neutral:
+        return f"The gesture itself does not fit, without any modulation: {in_short(neutral)}."
     alone = [
-        f"{principle.kind}.{principle.dial} {largest:.3g}"
+        _named(turned)
         for principle in modulation.principles
-        if (largest := _largest(primitive, modulation, principle, robot)) is not None
+        if (turned := _strongest(primitive, modulation, principle, robot)) is not None
     ]
     if alone:
         return f"It would fit with {' or '.join(alone)}."
 
     def at(share: float) -> Modulation:
-        weaker = (_turned(principle, share) for principle in modulation.principles)
-        return Modulation(principles=tuple(weaker))
+        return Modulation(
+            principles=tuple(_rounded(_turned(one, share), one) for one in modulation.principles)
+        )
 
-    share = _last_good(lambda tried: _fits(primitive, at(tried), robot), 0.0, 1.0)
-    together = ", ".join(
-        f"{one.kind}.{one.dial} {getattr(one, one.dial):.3g}" for one in at(share).principles
-    )
-    return (
-        f"No single intensity makes it fit; all of them would, {share:.0%} as far from neutral: {together}."
-    )
+    share = _last_good(lambda tried: fits(at(tried)), 0.0, 1.0) if fits(at(0.0)) else 0.0
+    if share >= _LEAST:
+        together = ", ".join(map(_named, at(share).principles))
+        return (
+            "No single intensity makes it fit; all of them would, "
+            f"{share:.0%} as far from neutral: {together}."
+        )
+    without = [
+        one.kind
+        for one in modulation.principles
+        if fits(Modulation(principles=tuple(other for other in modulation.principles if other is not one)))
+    ]
+    if without:
+        return f"No intensity makes it fit; it would fit without {' or without '.join(without)}."
+    return "No intensity makes it fit; without any modulation it would."
 
 
 def retimed(primitive: Primitive, modulation: Modulation, robot: Robot) -> Modulation | None:
@@ -58,10 +75,10 @@ def retimed(primitive: Primitive, modulation: Modulation, robot: Robot) -> Modul
     return at(_last_good(lambda tried: _fits(primitive, at(tried), robot), _LONGEST, 1.0, 2 * _BISECTIONS))
 
 
-def _largest(
+def _strongest(
     primitive: Primitive, modulation: Modulation, principle: Principle, robot: Robot
-) -> float | None:
-    """The strength nearest to the wanted one that fits, all else being equal; None where none does.
+) -> Principle | None:
+    """The principle as strong as fits, in round numbers, all else being equal; None where no strength does.
 
     In closed form where motions are affine in it, else by bisection.
     """
@@ -82,7 +99,25 @@ def _largest(
             share = None  # other principles make it not affine after all
     if share is None:
         share = _last_good(fits, 0.0, 1.0)
-    return float(getattr(_turned(principle, share), principle.dial))
+    turned = _rounded(_turned(principle, share), principle)
+    return turned if share >= _LEAST and _fits(primitive, modulation.with_(turned), robot) else None
+
+
+def _rounded(turned: Principle, principle: Principle) -> Principle:
+    """A principle turned down, its dial rounded to three digits, towards neutral."""
+    dial = principle.dial
+    value = getattr(turned, dial)
+    if not value:
+        return turned
+    digits = 2 - math.floor(math.log10(abs(value)))
+    down = value > (principle.neutral if dial == "intensity" else 0.0)
+    whole = (math.floor if down else math.ceil)(round(value * 10.0**digits, 6))
+    return principle.model_copy(update={dial: float(f"{whole / 10.0**digits:.3g}")})
+
+
+def _named(principle: Principle) -> str:
+    """The principle's dial and where it stands, such as `exa.intensity 1.54`."""
+    return f"{principle.kind}.{principle.dial} {getattr(principle, principle.dial):g}"
 
 
 def _affine_share(good: Course, bad: Course, primitive: Primitive) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +20,19 @@ class Key:
     value: float
     left: Handle | None = None
     right: Handle | None = None
+
+
+def from_home(keys: list[Key], home: float) -> list[Key]:
+    """The keys with one at home before them, where the first comes later than 0.
+
+    As on a NAOqi robot, which goes from wherever it stands to the first key: it sets out at rest.
+    """
+    first = min(keys, key=lambda key: key.time_s)
+    if first.time_s <= 0:
+        return keys
+    third = first.time_s / 3  # level handles of a third make the way there ease in and out
+    reached = replace(first, left=first.left or (-third, 0.0))
+    return [Key(0.0, home, None, (third, 0.0)), *(reached if key is first else key for key in keys)]
 
 
 def sample(keys: list[Key], times: FloatArray) -> FloatArray:

@@ -4,31 +4,37 @@
 
 A key is an angle, or an angle with its left and right handle, [type, time, angle] as offsets from the key:
 type 3 is Bezier, others are straight. The lists may also be written at once, `names = [...]`, in literals.
+What exports end in, `try: … except BaseException, err: print err`, is Python 2 and not looked at. Time begins
+at 0; a joint whose first key comes later sets out from home, at rest.
 """
 
 from __future__ import annotations
 
 import ast
+import math
+import re
 from pathlib import Path
 from typing import Any
 
 from stimuli.errors import InputError
-from stimuli.gestures.bezier import Handle, Key, sample
-from stimuli.gestures.reading import known_joint, read_text, whole_body
+from stimuli.gestures.bezier import Handle, Key, from_home, sample
+from stimuli.gestures.reading import each_once, known_joint, read_text, sampled_times, whole_body
 from stimuli.robots.model import Robot
-from stimuli.trajectory import Trajectory, even_times
+from stimuli.trajectory import Trajectory
 
 SUFFIXES = (".py",)
 
 _LISTS = ("names", "times", "keys")
 _BEZIER = 3
+_SENDING = re.compile(r"^try\s*:", re.MULTILINE)  # where lists end and the robot is spoken to
+_TOO_DEEP = (RecursionError, MemoryError)
 
 
 def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     """The gesture in an exported script."""
     try:
-        script = ast.parse(read_text(path))
-    except (SyntaxError, ValueError) as err:
+        script = ast.parse(_SENDING.split(read_text(path), maxsplit=1)[0])
+    except (SyntaxError, ValueError, *_TOO_DEEP) as err:
         raise InputError(f"{path}: not readable as Python: {err}") from err
     lists: dict[str, list[Any]] = {name: [] for name in _LISTS}
     for statement in ast.walk(script):
@@ -37,6 +43,7 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     if not names or not len(names) == len(times) == len(keys):
         found = ", ".join(f"{len(lists[name])} {name}" for name in _LISTS)
         raise InputError(f"{path}: {found}; an export has as many names as lists of times and of keys")
+    each_once(map(str, names), str(path))
     curves = {}
     for name, moments, values in zip(names, times, keys, strict=True):
         place = f"{path}: {name}"
@@ -47,15 +54,11 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
             or not len(moments) == len(values) > 0
         ):
             raise InputError(f"{place}: times {moments!r} and keys {values!r} are not lists of one length")
-        curves[str(name)] = [
-            _key(moment, value, place) for moment, value in zip(moments, values, strict=True)
-        ]
-    begin = min(key.time_s for curve in curves.values() for key in curve)
+        keyed = [_key(moment, value, place) for moment, value in zip(moments, values, strict=True)]
+        curves[str(name)] = from_home(keyed, robot.home[str(name)])
     end = max(key.time_s for curve in curves.values() for key in curve)
-    if end <= begin:
-        raise InputError(f"{path}: all keys lie at {begin:g} s; a gesture needs some duration")
-    grid = even_times(end - begin, dt_s)
-    return whole_body(grid, {name: sample(curve, grid + begin) for name, curve in curves.items()}, robot)
+    grid = sampled_times(end, dt_s, str(path))
+    return whole_body(grid, {name: sample(curve, grid) for name, curve in curves.items()}, robot)
 
 
 def _collect(statement: ast.AST, lists: dict[str, list[Any]], path: Path) -> None:
@@ -70,29 +73,39 @@ def _collect(statement: ast.AST, lists: dict[str, list[Any]], path: Path) -> Non
 
 def _literal(value: ast.expr, path: Path) -> Any:
     try:
-        return ast.literal_eval(value)
-    except ValueError as err:
-        raise InputError(
-            f"{path}:{value.lineno}: {ast.unparse(value)} is no literal; nothing is executed"
-        ) from err
+        try:
+            return ast.literal_eval(value)
+        except (ValueError, TypeError) as err:
+            raise InputError(
+                f"{path}:{value.lineno}: {ast.unparse(value)} is no literal; nothing is executed"
+            ) from err
+    except _TOO_DEEP as err:
+        raise InputError(f"{path}:{value.lineno}: too deeply nested to be a list of keys") from err
 
 
 def _key(moment: Any, key: Any, place: str) -> Key:
     def handle(written: Any) -> Handle | None:
         kind, time, angle = written
-        return (float(time), float(angle)) if kind == _BEZIER else None
+        return (_finite(time), _finite(angle)) if kind == _BEZIER else None
 
     try:
         if not isinstance(key, list):
-            return Key(float(moment), float(key))
+            return Key(_finite(moment), _finite(key))
         angle, left, right = (*key, None, None)[:3]
         return Key(
-            float(moment),
-            float(angle),
+            _finite(moment),
+            _finite(angle),
             None if left is None else handle(left),
             None if right is None else handle(right),
         )
-    except (TypeError, ValueError) as err:
+    except (TypeError, ValueError, OverflowError) as err:
         raise InputError(
             f"{place}: key {key!r} at {moment!r} is no angle, nor an angle with two handles"
         ) from err
+
+
+def _finite(number: Any) -> float:
+    value = float(number)
+    if not math.isfinite(value):
+        raise ValueError(f"{value} is not finite")
+    return value

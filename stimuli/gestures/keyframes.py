@@ -10,7 +10,8 @@
 
 Between keys a joint moves by a quintic with the velocities of a shape-preserving cubic (PCHIP) and no
 acceleration at the keys: twice continuously differentiable, at rest at both ends, and standing still between
-equal keys. Before its first key and after its last a joint holds still.
+equal keys. Before its first key and after its last a joint holds still. `robot` may be left out; a gesture
+that names one is refused for others.
 """
 
 from __future__ import annotations
@@ -24,9 +25,16 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from scipy.interpolate import BPoly, PchipInterpolator
 
 from stimuli.errors import InputError
-from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, whole_body
+from stimuli.gestures.reading import (
+    each_once,
+    in_joint_unit,
+    known_joint,
+    read_text,
+    sampled_times,
+    whole_body,
+)
 from stimuli.robots.model import Joint, Robot
-from stimuli.trajectory import FloatArray, Trajectory, even_times
+from stimuli.trajectory import FloatArray, Trajectory
 from stimuli.units import TIME, in_base_unit
 
 SUFFIXES = (".yaml", ".yml")
@@ -54,7 +62,7 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     try:
         tree = yaml.compose(text, Loader=yaml.SafeLoader)
         frames = Keyframes.model_validate(yaml.safe_load(text))
-    except yaml.YAMLError as err:
+    except (yaml.YAMLError, RecursionError) as err:
         raise InputError(f"{path}: not readable as YAML: {err}") from err
     except ValidationError as err:
         first = err.errors()[0]
@@ -63,11 +71,19 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
         raise InputError(
             f"{path}:{_line(tree, first['loc'])}: {name}: {message}, not {first['input']!r}"
         ) from err
-    times = even_times(frames.duration, dt_s)
+    if frames.robot not in (None, robot.name):
+        raise InputError(
+            f"{path}:{_line(tree, ('robot',))}: robot: the gesture is for {frames.robot}, not {robot.name}; "
+            "leave the line out where it suits both"
+        )
+    each_once(_names(tree, "joints"), f"{path}:{_line(tree, ('joints',))}: joints")
+    times = sampled_times(frames.duration, dt_s, f"{path}:{_line(tree, ('duration',))}: duration")
     moving = {}
     for name, keys in frames.joints.items():
         place = f"{path}:{_line(tree, ('joints', name))}"
         joint, home = known_joint(name, robot, place), robot.home[name]
+        if len(keys) < len(_names(tree, "joints", name)):
+            raise InputError(f"{place}: joints.{name}: two keys lie at one time; keep one of them")
         moments = np.array(sorted(keys))
         values = np.array(
             [
@@ -104,6 +120,15 @@ def _check(moments: FloatArray, values: FloatArray, frames: Keyframes, joint: Jo
                 f"{place}: {value * scale:.4g} at {moment:g} s is outside the joint's range, "
                 f"{joint.lower * scale:.4g} to {joint.upper * scale:.4g} {unit}"
             )
+
+
+def _names(node: yaml.Node | None, *location: str) -> list[str]:
+    """Keys of the mapping at a location in the file, as often as they stand there."""
+    for part in location:
+        assert isinstance(node, yaml.MappingNode)  # as the file was found to be
+        node = next(value for key, value in node.value if key.value == part)
+    assert isinstance(node, yaml.MappingNode)
+    return [key.value for key, _ in node.value]
 
 
 def _line(node: yaml.Node | None, location: tuple[Any, ...]) -> int:

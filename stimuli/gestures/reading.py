@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from stimuli.errors import InputError
 from stimuli.robots.model import Joint, Robot
-from stimuli.trajectory import FloatArray, Trajectory
+from stimuli.trajectory import FloatArray, Trajectory, even_times
+from stimuli.units import ANGLE, LENGTH
+
+LONGEST_S = 600.0  # a gesture beyond it was written in another unit of time
+
+_UNITS = {"revolute": ANGLE, "prismatic": LENGTH, "dimensionless": {"1": 1.0}}  # by kind of joint
+_SPELLINGS = {"°": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad"}
 
 
 def whole_body(times: FloatArray, moving: Mapping[str, FloatArray], robot: Robot) -> Trajectory:
@@ -28,6 +34,35 @@ def known_joint(name: str, robot: Robot, place: str) -> Joint:
         near = difflib.get_close_matches(name, robot.joint_names, 1)
         hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(robot.joint_names)}"
         raise InputError(f"{place}: {robot.name} has no joint {name!r}{hint}") from None
+
+
+def each_once(names: Iterable[str], place: str) -> None:
+    """InputError at `place` where a joint stands twice: which of the two was meant is not for us to say."""
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise InputError(f"{place}: {name} stands there twice; keep one of them")
+        seen.add(name)
+
+
+def sampled_times(duration_s: float, dt_s: float, place: str) -> FloatArray:
+    """Even times over a gesture. InputError where it has no duration or an impossible one."""
+    if not 0 < duration_s <= LONGEST_S:
+        raise InputError(
+            f"{place}: the gesture lasts {duration_s:g} s; it needs some duration, at most {LONGEST_S:g} s. "
+            "Are its times in s?"
+        )
+    return even_times(duration_s, dt_s)
+
+
+def unit_factor(unit: str, joint: Joint, place: str) -> float:
+    """What a value written in this unit is multiplied by to be in the joint's own."""
+    known = _UNITS[joint.kind]
+    written = unit.strip().lower()
+    written = _SPELLINGS.get(written, written)
+    if written not in known:
+        raise InputError(f"{place}: {joint.name} has no unit {unit.strip()!r}. Known: {', '.join(known)}")
+    return known[written]
 
 
 def in_joint_unit(value: float, unit: str, joint: Joint) -> float:

@@ -1,8 +1,8 @@
 """Recorded gestures: CSV with a header of `time` and joints, one row per sample, in s and the joints' units.
 
 Samples may be uneven, unsorted and repeated: they are sorted, those with the same time averaged, and joined
-by monotone cubics (PCHIP), which never leave the range of the samples. A header may say a joint's unit,
-`HeadYaw [deg]`.
+by monotone cubics (PCHIP), which never leave the range of the samples. A header may say a column's unit:
+`time [ms]`, `HeadYaw [deg]`.
 """
 
 from __future__ import annotations
@@ -14,9 +14,18 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from stimuli.errors import InputError
-from stimuli.gestures.reading import in_joint_unit, known_joint, read_text, whole_body
+from stimuli.gestures.reading import (
+    LONGEST_S,
+    each_once,
+    known_joint,
+    read_text,
+    sampled_times,
+    unit_factor,
+    whole_body,
+)
 from stimuli.robots.model import Robot
-from stimuli.trajectory import FloatArray, Trajectory, even_times
+from stimuli.trajectory import FloatArray, Trajectory
+from stimuli.units import TIME
 
 SUFFIXES = (".csv",)
 
@@ -25,24 +34,49 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     """The gesture in a table of samples."""
     rows = list(csv.reader(read_text(path).splitlines()))
     header = [cell.strip() for cell in rows[0]] if rows else []
-    if not header or header[0] not in ("time", "time_s", "t"):
-        raise InputError(
-            f"{path}:1: the first column is 'time' in s, the others are joints; it is {header[:1]}"
-        )
+    second = _second(header, f"{path}:1")
+    columns = [_column(title, robot, f"{path}:1") for title in header[1:]]
+    each_once((name for name, _ in columns), f"{path}:1")
     samples = np.array(
         [_numbers(row, header, f"{path}:{n}") for n, row in enumerate(rows[1:], 2) if any(row)]
     )
     if len(samples) < 2 or np.ptp(samples[:, 0]) <= 0:
         raise InputError(f"{path}: {len(samples)} samples; at least two at different times are needed")
-    moments, values = _in_order(samples[:, 0], samples[:, 1:])
-    times = even_times(float(np.ptp(moments)), dt_s)
+    moments, values = _in_order(samples[:, 0] * second, samples[:, 1:])
+    duration_s = float(np.ptp(moments))
+    if duration_s > LONGEST_S and second == 1:
+        raise InputError(
+            f"{path}: the samples span {duration_s:g} s, more than {LONGEST_S:g} s; times are in s. "
+            "If these are ms, head the column 'time [ms]'"
+        )
+    times = sampled_times(duration_s, dt_s, str(path))
     smooth = PchipInterpolator(moments - moments[0], values)(times)
-    moving = {}
-    for column, title in zip(smooth.T, header[1:], strict=True):
-        name, _, unit = title.partition("[")
-        joint = known_joint(name.strip(), robot, f"{path}:1")
-        moving[joint.name] = column * in_joint_unit(1.0, unit.strip(" ]") or "rad", joint)
+    moving = {name: column * factor for (name, factor), column in zip(columns, smooth.T, strict=True)}
     return whole_body(times, moving, robot)
+
+
+def _second(header: list[str], place: str) -> float:
+    """What times are multiplied by to be in s, as the first column's title says."""
+    name, unit = _named(header[0]) if header else ("", None)
+    if name not in ("time", "time_s", "t") or (unit or "s") not in TIME:
+        raise InputError(
+            f"{place}: the first column is 'time' in s, or 'time [ms]', the others are joints; "
+            f"it is {header[:1]}"
+        )
+    return TIME[unit or "s"]
+
+
+def _column(title: str, robot: Robot, place: str) -> tuple[str, float]:
+    """The joint that a title names, and what its values are multiplied by to be in the joint's unit."""
+    name, unit = _named(title)
+    joint = known_joint(name, robot, place)
+    return joint.name, 1.0 if unit is None else unit_factor(unit, joint, place)
+
+
+def _named(title: str) -> tuple[str, str | None]:
+    """Name and unit of a column, `HeadYaw [deg]`."""
+    name, bracket, unit = title.partition("[")
+    return name.strip(), unit.strip(" ]") if bracket else None
 
 
 def _numbers(row: list[str], header: list[str], place: str) -> list[float]:

@@ -209,3 +209,13 @@ def test_a_demonstration_cut_out_of_a_motion_is_eased_along_the_same_path_or_ref
     again = integrate(primitive.course(Modulation(), robot), 0.01, len(shown.times) - 1)[0]
     assert np.abs(again - shown.positions).max() < 1e-2
     assert eased(whole) is whole
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_noise_does_not_make_a_demonstration_move_at_its_ends(seed, robot, demonstrate):
+    whole = demonstrate(seed)
+    noise = np.random.default_rng(seed).standard_normal(whole.positions.shape)
+    noisy = whole.positions + 0.01 * np.ptp(whole.positions, axis=0) * noise
+    assert rests_at_ends(replace(whole, positions=noisy)) == (True, True)
+    cut = Trajectory(whole.times[:151], noisy[75:226], whole.joints)
+    assert not all(rests_at_ends(cut))
