@@ -6,6 +6,8 @@ Positions are offsets from the start; time is counted in shares of the duration.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -55,6 +57,18 @@ def filtered_goal(course: Course, shares: FloatArray) -> FloatArray:
         return goals
     earlier = (shares < course.goal_since - ROUNDING)[:, None]
     return np.where(earlier, filtered_goal(course.until_then, shares), goals)
+
+
+def heading_for(course: Course, positions: Mapping[int, float], share: float) -> Course:
+    """The course with other goals in these columns from that share of time on; the other goals are kept."""
+    goal = course.goal.copy()
+    goal[list(positions)] = list(positions.values())
+    if course.until_then is None or share >= course.goal_since - ROUNDING:
+        here = filtered_goal(course, np.array([share]))[0]
+        return replace(course, goal=goal, former_goal=here, goal_since=share, until_then=None)
+    until_then = heading_for(course.until_then, positions, share)
+    there = filtered_goal(until_then, np.array([course.goal_since]))[0]
+    return replace(course, goal=goal, former_goal=there, until_then=until_then)
 
 
 def phase(course: Course, shares: FloatArray) -> FloatArray:

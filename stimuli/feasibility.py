@@ -51,6 +51,13 @@ def violations(
 
 
 def _of_joint(trajectory: Trajectory, joint: Joint) -> list[Violation]:
+    nowhere = np.flatnonzero(~np.isfinite(trajectory.joint(joint.name)))
+    if nowhere.size:  # neither within limits nor beyond them
+        value, time_s = trajectory.joint(joint.name)[nowhere[0]], trajectory.times[nowhere[0]]
+        unit = "" if joint.unit == "1" else joint.unit
+        return [
+            Violation(joint.name, "position", float(time_s), float(value), joint.upper, unit, excess=np.inf)
+        ]
     found = []
     for bounded in _bounded(trajectory, joint):
         excess: FloatArray = np.maximum(bounded.values - bounded.upper, bounded.lower - bounded.values)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from stimuli.course import Course
+from stimuli.errors import InputError
 from stimuli.gates import Gates
 from stimuli.robots.model import Relation
+from stimuli.spring import growth_rate
 from stimuli.trajectory import FloatArray, IndexArray
 
 _NOTHING = np.zeros(())
+_OVERGROWTH = 2.0  # by which a motion may grow too much because its window ends within a step
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,18 @@ class Group:
     def anticipates(self) -> bool:
         """Whether these joints move differently in the window."""
         return (self.gain, self.mirror) != (1.0, 1.0)
+
+    def refuse_overrun(self, course: Course, end: float) -> None:
+        """InputError where a step begun in the window ends at `end`, so late that the motion runs away."""
+        if self.gain > 0:
+            return
+        growing, allowed = growth_rate(course.rate, self.gain), math.log(_OVERGROWTH)
+        if growing * (end - course.window) > allowed:
+            raise InputError(
+                f"ant.intensity: {-self.gain:g} needs finer steps: its window of {course.window:g} ends "
+                f"within one, and the motion would run away until {end:.3g} of the duration. Take steps of "
+                f"at most {allowed / growing * course.tau_s:.2g} s (finer in bent time), or form: mirror"
+            )
 
     def from_sources(self, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What sources in this motion (2, …, c) add to these joints' states, (2, …, m), and attractors."""

@@ -2,50 +2,49 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import replace
+from copy import copy
 
 import numpy as np
 
-from stimuli.attractor import ROUNDING, attractor_at, clock, filtered_goal, pace
+from stimuli.attractor import ROUNDING, attractor_at, clock, heading_for, pace
 from stimuli.course import Course
+from stimuli.errors import InputError
 from stimuli.groups import groups
-from stimuli.spring import decay, step_of
+from stimuli.spring import step_of
 from stimuli.trajectory import FloatArray
+
+_MOMENT = 1e-7  # of the duration, over which accelerations are looked at
 
 
 class Runner:
     """A motion under way. Its steps are those of `stimuli.rollout.integrate`.
 
-    `change` swaps the course without a jump in position or velocity: the state and the share of time gone by
-    are kept, and the strength of Secondary Action, which shows without acting on the state, follows as
-    springs do.
+    Changes come without a jump in position or velocity. The state is kept, as far as the new course can carry
+    it; where this shows elsewhere or at another speed than the former course did, the difference is added to
+    what is shown and fades as the springs do.
     """
 
-    def __init__(
-        self, course: Course, positions: FloatArray | None = None, velocities: FloatArray | None = None
-    ) -> None:
-        """At the course's start and at rest, unless it comes from elsewhere, as in a sequence of motions."""
-        d, c = len(course.joints), len(course.joints) + len(course.gated)
+    def __init__(self, course: Course) -> None:
+        """At the course's start and at rest."""
+        d = len(course.joints)
         self.share = 0.0  # of the duration gone by
         # Offsets from the start of all joints and what passed the gates; velocities per share of the clock.
-        self._motion = np.zeros((2, c))
-        # Change of Secondary Action's strength still to come, and its rate.
-        self._pending = np.zeros((2, d, c))
-        self._carries = False
+        self._motion = np.zeros((2, d + len(course.gated)))
+        self._fading = np.zeros((2, d))  # what is shown besides, and its velocity per share of the duration
+        self._fades = False
         self._pull = np.zeros(d)  # attractors now
-        if positions is not None:
-            self._motion[0, :d] = positions - course.start
-        if velocities is not None:
-            self._motion[1, :d] = velocities * course.tau_s / max(pace(course, 0.0), ROUNDING)
         self._set_out(course)
 
     @property
     def positions(self) -> FloatArray:
         """Positions shown now, (d,)."""
         shown: FloatArray = self.course.start + self._motion[0, : len(self.course.joints)]
-        if self._carries:
-            shown += (self.course.carrying + self._pending[0]) @ self._velocities
+        if self.course.carried is not None:
+            shown += self.course.carried @ self._velocities
+        if self._fades:
+            shown += self._fading[0]
         return shown
 
     @property
@@ -60,72 +59,107 @@ class Runner:
 
     def step(self, dt_s: float, goal: Mapping[str, float] | None = None) -> FloatArray:
         """Go on for dt_s, first setting new goals for the joints named; returns the positions shown, (d,)."""
+        if not (math.isfinite(dt_s) and dt_s >= 0):
+            raise InputError(f"dt_s: a step takes a time of at least 0 s, not {dt_s:g}")
         if goal:
             self.head_for(goal)
-        course, before = self.course, self.share
-        h = dt_s / course.tau_s
-        if self._carries:
-            self._pending = np.tensordot(decay(course.rate, h), self._pending, axes=1)
-        self.share += h
-        pull, self._pull = self._pull, attractor_at(course, self.share)
-        now = before
-        if course.clock is not None:
-            now, then = clock(course, np.array([before, self.share])).tolist()
-            h = then - now
-        self._move(pull, h, now < course.window - ROUNDING)
+        self._go_on(dt_s / self.course.tau_s)
         return self.positions
 
-    def change(self, course: Course) -> None:
-        """Go on along another course of the same joints."""
-        former, share = self.course, self.share
-        slower = course.tau_s / former.tau_s
-        self._pending[0] += former.carrying - course.carrying
-        self._pending[1] *= slower
+    def change(self, course: Course, *, afresh: bool = False) -> None:
+        """Go on along another course of the same joints, at the same share of its time or, afresh, at 0."""
+        former, before = self.course, self._shown()
+        if course.joints != former.joints:
+            raise InputError(
+                f"A motion of {', '.join(former.joints)} cannot go on as one of {', '.join(course.joints)}"
+            )
+        slower, paced = course.tau_s / former.tau_s, pace(former, self.share)
+        self.share = 0.0 if afresh else self.share
         self._motion[0, : len(course.joints)] += former.start - course.start
-        self._motion[1] *= slower * pace(former, share) / max(pace(course, share), ROUNDING)
+        self._motion[1] *= slower * _kept(paced, pace(course, self.share))
+        self._fading[1] *= slower
         self._set_out(course)
+        missing = before - self._shown()
+        self._fading += missing * [[1.0], [course.tau_s]]
+        self._fades = bool(self._fading.any())
 
     def head_for(self, goal: Mapping[str, float]) -> None:
         """Go on to other goals of the joints named, gliding there if the course's goals do."""
-        wanted = self.course.goal.copy()
+        course = self.course
+        wanted = {course.column(joint, "goal"): float(position) for joint, position in goal.items()}
         for joint, position in goal.items():
-            wanted[self.course.joints.index(joint)] = position
-        if not np.array_equal(wanted, self.course.goal):
-            here = filtered_goal(self.course, np.array([self.share]))[0]
-            self.change(replace(self.course, goal=wanted, former_goal=here, goal_since=self.share))
+            if not math.isfinite(position):
+                raise InputError(f"goal.{joint}: {position:g} is not a position")
+        there = all(course.goal[column] == position for column, position in wanted.items())
+        if not there or course.until_then is not None:
+            self.change(heading_for(course, wanted, self.share))
 
     def _set_out(self, course: Course) -> None:
         self.course = course
         self._pull = attractor_at(course, self.share)
-        self._carries = course.carried is not None or bool(self._pending.any())
-        alone = course.is_plain and not self._carries
-        self._groups = [] if alone else groups(course, gated=self._carries or course.is_coupled)
+        gated = course.carried is not None or course.is_coupled
+        self._groups = [] if course.is_plain else groups(course, gated=gated)
         for group in self._groups:
             if group.gates is not None:
                 velocities = group.gates.passed(self._motion[:, None], course.start)[1]
                 self._motion[1, group.columns] = velocities[0]
 
-    def _move(self, pull: FloatArray, h: float, anticipating: bool) -> None:
-        """Take a step of h shares; the attractors are `pull` before and `self._pull` after it, (d,) each."""
+    def _shown(self) -> FloatArray:
+        """Positions shown now and their velocities per second, (2, d)."""
+        velocities = self.velocities + self._fading[1] / self.course.tau_s
+        if self.course.carried is not None:
+            soon = copy(self)
+            soon._go_on(_MOMENT)
+            faster = soon._velocities - self._velocities
+            velocities += self.course.carried @ faster / (_MOMENT * self.course.tau_s)
+        return np.stack([self.positions, velocities])
+
+    def _go_on(self, h: float) -> None:
+        """Take a step of h shares of the duration."""
+        course, now = self.course, self.share
+        if self._fades:
+            self._fading = step_of("zoh", course.rate, h).across @ self._fading
+        self.share += h
+        pull, self._pull = self._pull, attractor_at(course, self.share)
+        if course.clock is not None:
+            now, then = clock(course, np.array([now, self.share])).tolist()
+            h = then - now
+        self._move(pull, now, h)
+
+    def _move(self, pull: FloatArray, now: float, h: float) -> None:
+        """Go from `now` on for h shares of the clock, the attractors going from `pull` to `self._pull`."""
         course, old = self.course, self._motion
         if not self._groups:
             alone = old[:, : len(pull)]
             alone[:] = step_of(course.scheme, course.rate, h).taken(alone, pull, self._pull)
             return
-        new = self._motion = old.copy()
+        new, anticipating = old.copy(), now < course.window - ROUNDING
         for group in self._groups:
             if group.gates is not None:
                 both = np.stack([old, new], axis=1)
                 steps, velocities = group.gates.passed(both, course.start)
                 new[:, group.columns] = old[0, group.columns] + steps[0], velocities[1]
                 continue
-            gain, mirror = (group.gain, group.mirror) if anticipating else (1.0, 1.0)
+            gain, mirror = 1.0, 1.0
+            if anticipating:
+                gain, mirror = group.gain, group.mirror
+                group.refuse_overrun(course, now + h)
             (shift, push), (shift_after, push_after) = group.from_sources(old), group.from_sources(new)
             new[:, group.columns] = -shift_after + step_of(course.scheme, course.rate, h, gain).taken(
                 old[:, group.columns] + shift,
                 mirror * pull[group.columns] + push,
                 mirror * self._pull[group.columns] + push_after,
             )
+        self._motion = new
+
+
+def _kept(before: float, after: float) -> float:
+    """The factor on velocities per share of a clock that keeps those in time when its pace changes.
+
+    Bounded, as a clock may all but stand still: it raises no velocity above what it was, in either measure.
+    """
+    most = max(1.0, before)
+    return most if before >= most * after else before / after
 
 
 def run(course: Course, dt_s: float, n: int) -> tuple[FloatArray, FloatArray]:
@@ -144,12 +178,14 @@ def in_sequence(courses: list[Course], dt_s: float, handover: float = 1.0) -> Fl
     A motion hands over at that share of its duration; the last one runs to its end. Position and velocity are
     continuous: the next motion starts from the state it is given, not from its own demonstration's.
     """
-    positions: list[FloatArray] = []
+    if not dt_s > 0:
+        raise InputError(f"dt_s: a sequence needs steps of more than 0 s, not {dt_s:g}")
     runner = Runner(courses[0])
-    for course, until in zip(courses, [handover] * (len(courses) - 1) + [1.0], strict=True):
-        if positions:
-            runner = Runner(course, positions=positions.pop(), velocities=runner.velocities)
-        positions.append(runner.positions)
+    positions = [runner.positions]
+    for following in [*courses[1:], None]:
+        until = 1.0 if following is None else handover
         while runner.share < until - ROUNDING:
             positions.append(runner.step(dt_s))
+        if following is not None:
+            runner.change(following, afresh=True)
     return np.stack(positions)

@@ -11,6 +11,7 @@ import numpy as np
 
 from stimuli.attractor import ROUNDING, attractor
 from stimuli.course import Course
+from stimuli.errors import InputError
 from stimuli.groups import groups
 from stimuli.online import run
 from stimuli.spring import respond, step_of
@@ -18,6 +19,7 @@ from stimuli.superposition import superposed
 from stimuli.trajectory import FloatArray, Trajectory
 
 REST = 1e-3  # of the largest amplitude; see roll_out
+_STILL = 1e-12  # rad: motion below that is rounding
 _EXTENSIONS = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0, 10.0)  # of the duration, tried until the motion rests within it
 
 
@@ -26,20 +28,25 @@ def roll_out(course: Course, dt_s: float) -> Trajectory:
 
     A joint rests once its distance from the goal plus its speed over the spring's rate is below `REST` of the
     largest amplitude in the motion: it can then, by the spring's own solution, never get further away than
-    that.
+    that. InputError where this takes more than ten durations.
     """
     whole = math.ceil(course.tau_s / dt_s - ROUNDING)
     for extension in _EXTENSIONS:
         n = math.ceil(extension * course.tau_s / dt_s - ROUNDING)
         positions, velocities = integrate(course, dt_s, n)
         unrest = np.abs(positions - course.goal) + np.abs(velocities) * course.tau_s / course.rate
-        allowed = REST * np.ptp(positions, axis=0).max()
+        allowed = max(REST * np.ptp(positions, axis=0).max(), _STILL)
         restless = np.flatnonzero((unrest[whole:] > allowed).any(axis=1))
         last = whole + (int(restless[-1]) + 1 if len(restless) else 0)
         if last <= n:
-            break
-    last = min(last, n)
-    return Trajectory(sampled(last, dt_s), positions[: last + 1], course.joints)
+            return Trajectory(sampled(last, dt_s), positions[: last + 1], course.joints)
+    worst = int(np.argmax(unrest[-1]))
+    away = abs(positions[-1, worst] - course.goal[worst])
+    raise InputError(
+        f"The motion does not come to rest within {_EXTENSIONS[-1]:g} durations: "
+        f"{course.joints[worst]} is then {away:.3g} from its goal. "
+        "Take a larger alpha, a shorter lag_s, or goals that move earlier"
+    )
 
 
 def sampled(n: int, step: float) -> FloatArray:
@@ -85,6 +92,7 @@ def _together(course: Course, alone: FloatArray, shares: FloatArray) -> FloatArr
         if group.anticipates:
             turned = step_of(course.scheme, course.rate, shares[1], group.gain)
             border = int(np.count_nonzero(shares[:-1] < course.window - ROUNDING))  # steps in the window
+            group.refuse_overrun(course, shares[border])
             pull = attractor(course, shares)[:, group.columns]
             begun = respond((group.mirror * pull + pushed)[: border + 1], rest, turned)
             ended = respond((pull + pushed)[border:], begun[:, -1], step)

@@ -24,6 +24,8 @@ from stimuli.errors import InputError
 from stimuli.trajectory import FloatArray
 
 _SEMI_LIMIT = (math.sqrt(32) - 4) / 2  # of rate * step, above which semi-implicit Euler is unstable
+_SHORT = 0.05  # rate * step below which closed forms divide rounding errors by the step; a series does not …
+_TERMS = 10  # … and is then exact to rounding
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,8 @@ def step_of(scheme: Scheme, rate: float, h: float, gain: float = 1.0) -> Step:
     held = np.array([1.0, 0.0])  # where a spring stays while u is 1
     if scheme == "zoh":
         return Step(across, held - across @ held, np.zeros(2))
+    if (1 + abs(gain)) * rate * h < _SHORT:
+        return Step(across, *_drawn_in_a_short_step(rate, h, gain))
     # Behind u_0 + slope t every such spring, whatever its gain, can run at the distance 2 slope / rate.
     behind = np.array([-2 / rate, 1.0]) / h  # that motion at u = 0, for u_1 - u_0 = 1
     return Step(across, across @ (behind - held) - behind, held + behind - across @ behind)
@@ -63,13 +67,33 @@ def step_of(scheme: Scheme, rate: float, h: float, gain: float = 1.0) -> Step:
 
 def decay(rate: float, h: float, gain: float = 1.0) -> FloatArray:
     """What a time h makes of the state while u is 0: the exponential of the system's matrix, (2, 2)."""
-    system = np.array([[0.0, 1.0], [-gain * rate**2, -2 * gain * rate]])
+    system = _system(rate, gain)
     middle = -gain * rate * np.eye(2)  # mean of the poles, which lie at middle +- spread
     spread = rate * np.sqrt(complex(gain * gain - gain))
     even = np.cosh(spread * h).real
     odd = (np.sinh(spread * h) / spread).real if spread else h
     made: FloatArray = math.exp(-gain * rate * h) * (even * np.eye(2) + odd * (system - middle))
     return made
+
+
+def _system(rate: float, gain: float) -> FloatArray:
+    """The matrix A of x' = A x + (0, gain rate^2) u, (2, 2)."""
+    return np.array([[0.0, 1.0], [-gain * rate**2, -2 * gain * rate]])
+
+
+def _drawn_in_a_short_step(rate: float, h: float, gain: float) -> tuple[FloatArray, FloatArray]:
+    """`before` and `after` for a u that is linear, (2,) each: sums of (h A)^k h B (k + 1 or 1) / (k + 2)!."""
+    term = np.array([0.0, h * gain * rate**2]) / 2
+    before, after, system = term, term, h * _system(rate, gain)
+    for k in range(1, _TERMS):
+        term = system @ term / (k + 2)
+        before, after = before + (k + 1) * term, after + term
+    return before, after
+
+
+def growth_rate(rate: float, gain: float) -> float:
+    """How fast a spring with gain -p <= 0 runs away: its unstable pole, rate (p + sqrt(p^2 + p))."""
+    return rate * (-gain + math.sqrt(gain * gain - gain))
 
 
 def _semi_implicit(rate: float, h: float, gain: float) -> Step:

@@ -9,21 +9,23 @@ from typing import Annotated, ClassVar, Literal, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from stimuli.attractor import ROUNDING
 from stimuli.course import Course
 from stimuli.errors import InputError
 from stimuli.principles.principle import Principle, Stage
 from stimuli.rollout import integrate
+from stimuli.spring import growth_rate
 from stimuli.units import POSITION, in_base_unit
 
 LARGEST_GROWTH = 100.0
 
-_STEP = 1 / 400  # of the duration, in which a dip is looked for …
+_STEP = 1 / 400  # of the duration, in about which a dip is looked for …
 _AFTERWARDS = 0.1  # … until that long after the window
 _BISECTIONS = 40
 
 
 def _growth(p: float, alpha: float, window: float) -> float:
-    return math.exp(min(700.0, alpha / 2 * (p + math.sqrt(p * p + p)) * window))
+    return math.exp(min(700.0, growth_rate(alpha / 2, -p) * window))
 
 
 def growths(course: Course) -> dict[str, float]:
@@ -47,7 +49,8 @@ class Ant(Principle):
 
     `form: literal`, as in the paper: y'' becomes -p y'' while t / tau < window. Inside the window the spring
     is unstable, so the dip grows as exp[(alpha / 2) (p + sqrt(p^2 + p)) window]; beyond a factor of 100 it is
-    refused. Near p = 0 the joint stands still for the window; p = 0 itself means no anticipation.
+    refused, and so are steps so coarse that the one in which the window ends would double it. Near p = 0 the
+    joint stands still for the window; p = 0 itself means no anticipation.
 
     `form: mirror`: in the window the joint moves as y0 - p (y - y0), y being what it would have done. The dip
     is proportional to p and cannot run away.
@@ -136,9 +139,11 @@ class Ant(Principle):
         )
         factor = np.array([-intensity])
         anticipating = replace(alone, mirror=factor) if self.form == "mirror" else replace(alone, gain=factor)
-        n = round((self.window + _AFTERWARDS) / _STEP)
-        plain, turned = (integrate(each, _STEP * course.tau_s, n)[0][:, 0] for each in (alone, anticipating))
-        way = np.sign(plain[round(self.window / _STEP)] - plain[0])
+        in_window = max(1, math.ceil(self.window / _STEP - ROUNDING))  # steps
+        step = self.window / in_window
+        n = round((self.window + _AFTERWARDS) / step)
+        plain, turned = (integrate(each, step * course.tau_s, n)[0][:, 0] for each in (alone, anticipating))
+        way = np.sign(plain[in_window] - plain[0])
         return float(np.max(way * (turned[0] - turned)))
 
     def growth(self, alpha: float) -> float:

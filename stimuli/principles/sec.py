@@ -17,9 +17,12 @@ class Sec(Principle):
     """Carry the source's velocity over to the target's position: y_T becomes y_T + delta p y_S'.
 
     `form: output` is the formula as printed: the shown position is moved, the spring knows nothing of it, p
-    is in seconds. `form: state` moves the state itself, as a program does that adds the term in every step;
-    it is written here as a rate, y_T' gains delta (p / (1/60 s)) y_S', so that the step size drops out. It is
-    much stronger: p = 0.05 is plain to see in it and nearly invisible in `output`.
+    is in seconds. As that contains a velocity, what is shown jumps in velocity where accelerations jump:
+    where a motion sets out for a new goal, and where an anticipation ends. Changes under way are smoothed.
+
+    `form: state` moves the state itself, as a program does that adds the term in every step; it is written
+    here as a rate, y_T' gains delta (p / (1/60 s)) y_S', so that the step size drops out. It is much
+    stronger: p = 0.05 is plain to see in it and nearly invisible in `output`. No velocity jumps in it.
     """
 
     kind: ClassVar[str] = "sec"
