@@ -113,5 +113,6 @@ def _table(findings: Iterable[Finding], described: Mapping[str, Mapping[str, flo
     for finding in findings:
         arrow = "higher" if finding.direction > 0 else "lower"
         before, after = (described[name][finding.descriptor] for name in ("neutral", finding.emotion))
-        numbers = f"{arrow} | {before:.3g} | {after:.3g}"
-        yield f"| {finding.emotion} | {finding.descriptor} | {numbers} | {', '.join(finding.sources) or '–'} |"
+        found_by = ", ".join(finding.sources) or "–"
+        cells = (finding.emotion, finding.descriptor, arrow, f"{before:.3g}", f"{after:.3g}", found_by)
+        yield f"| {' | '.join(cells)} |"

@@ -53,10 +53,17 @@ def draw_preview(
 
 
 def write_descriptors(manifest: Manifest, out: Path) -> Path:
-    """Write what describes each motion as a table, a row for each stimulus."""
-    columns = list(dict.fromkeys(name for clip in manifest.clips.values() for name in clip.descriptors))
+    """Write what describes each motion as a table, a row for each stimulus.
+
+    Also `amplitude_<joint>`, peak to peak in the joint's unit, of every joint.
+    """
+    rows = [
+        {"stimulus": id_, **clip.descriptors}
+        | {f"amplitude_{joint}": left["amplitude"] for joint, left in clip.margins.items()}
+        for id_, clip in manifest.clips.items()
+    ]
     with out.open("w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, ["stimulus", *columns])
+        table = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
         table.writeheader()
-        table.writerows({"stimulus": id_, **clip.descriptors} for id_, clip in manifest.clips.items())
+        table.writerows(rows)
     return out

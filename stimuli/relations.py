@@ -26,6 +26,7 @@ from stimuli.robots.model import Joint, Relation, Robot, Within
 from stimuli.trajectory import FloatArray
 
 ALIGNED_RAD = math.radians(30.0)  # largest angle between axes that count as parallel
+_SIGNS = {frozenset({1}): "", frozenset({-1}): "-", frozenset({1, -1}): "±"}
 _POSES = 721  # of a joint, looked at within its range
 
 
@@ -146,22 +147,25 @@ def in_causal_order(robot: str, relations: list[Relation]) -> tuple[Relation, ..
 
 
 def in_short(relations: tuple[Relation, ...]) -> str:
-    """Sources and their targets on one line, and how many relations hold under conditions."""
-    targets: dict[str, dict[str, None]] = {}
+    """Sources and what they drive, `HipRoll -> ±HeadPitch [HeadYaw]`: either way, by where HeadYaw is."""
+    signs: dict[str, dict[str, set[int]]] = {}
     for relation in relations:
-        targets.setdefault(relation.source, {})[relation.target] = None
-    gated = sum(bool(relation.while_) for relation in relations)
-    listed = "; ".join(f"{source} -> {', '.join(driven)}" for source, driven in targets.items())
-    while_ = f" ({gated} of {len(relations)} while joints between are within limits)" if gated else ""
-    return (listed or "no joint drives another") + while_
+        gate = ", ".join(within.joint for within in relation.while_)
+        driven = relation.target + (f" [{gate}]" if gate else "")
+        signs.setdefault(relation.source, {}).setdefault(driven, set()).add(relation.sign)
+    listed = "; ".join(
+        f"{source} -> {', '.join(_SIGNS[frozenset(found)] + driven for driven, found in targets.items())}"
+        for source, targets in signs.items()
+    )
+    gated = any(relation.while_ for relation in relations)
+    return (listed or "no joint drives another") + (" ([…]: while these are within limits)" if gated else "")
 
 
 def described(relation: Relation, robot: Robot) -> str:
     """A relation in words, such as `HipPitch -> HeadPitch (opposed) while HeadYaw -30…30 deg`."""
     opposed = " (opposed)" if relation.sign < 0 else ""
-    return f"{relation.source} -> {relation.target}{opposed}" + " and".join(
-        f"{' while' if not at else ''} {_limits(within, robot)}" for at, within in enumerate(relation.while_)
-    )
+    limits = " and ".join(_limits(within, robot) for within in relation.while_)
+    return f"{relation.source} -> {relation.target}{opposed}" + (f" while {limits}" if limits else "")
 
 
 def _limits(within: Within, robot: Robot) -> str:

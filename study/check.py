@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from pydantic import BaseModel
 
+from stimuli.ends import EASE_S, rests_at_ends
 from stimuli.errors import InputError
 from stimuli.gestures import read_gesture
 from stimuli.motion import generate
 from stimuli.relations import in_short, relations_of
 from stimuli.robots import load_robot
+from stimuli.trajectory import Trajectory
 from study.balance import balance
 from study.orders import cycle, draw_plan
 from study.power import power
@@ -119,9 +121,12 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
     if broken:
         yield Finding("wrong", "robot", "\n".join(broken))
         return
+    gestures = {}
     for name, gesture in protocol.gestures.items():
         try:
-            read_gesture(protocol.folder / gesture.file, robots[protocol.robot_of(name)])
+            gestures[name] = read_gesture(
+                protocol.folder / gesture.file, robots[protocol.robot_of(name)], protocol.learning.dt_s
+            )
         except InputError as error:
             broken.append(str(protocol.source.problem(("gestures", name), _alone(error, f"{gesture.file}:"))))
     if broken:
@@ -129,6 +134,7 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         return
     titles = ", ".join(robot.title for robot in robots.values())
     yield Finding("good", "gestures", f"{len(protocol.gestures)} read for {titles}")
+    yield from _eased(gestures, protocol)
     if any({"sec", "follow"} & set(one.modulation.model_dump()) for one in protocol.stimuli.values()):
         for robot in robots.values():
             yield Finding("good", "relations", in_short(relations_of(robot, robot.joint_names)))
@@ -142,6 +148,16 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("wrong", "motions", "\n".join(beyond))
     else:
         yield Finding("good", "motions", "the robot can do every stimulus within its limits")
+
+
+def _eased(gestures: Mapping[str, Trajectory], protocol: Protocol) -> Iterator[Finding]:
+    """Which gestures do not rest where they start or end, if they need not."""
+    for name, gesture in gestures.items() if protocol.learning.moving_ends == "ease" else ():
+        ends = zip(("start", "end"), rests_at_ends(gesture), strict=True)
+        moving = " and ".join(end for end, rests in ends if not rests)
+        if moving:
+            eased = f"eased over {EASE_S:g} s of it, which then take twice as long: docs/formats.md"
+            yield Finding("mind", "gestures", f"{name} moves at its {moving}; {eased}")
 
 
 def _texts(protocol: Protocol) -> Iterator[Finding]:

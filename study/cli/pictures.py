@@ -111,7 +111,7 @@ def motion(
     ] = "csv",
 ) -> None:
     """Write a stimulus' motion for another program or for the robot itself."""
-    from stimuli.export import WRITERS
+    from stimuli.export import write_motion
     from stimuli.motion import generate
     from stimuli.robots import load_robot
     from study.specs import specs
@@ -122,7 +122,7 @@ def motion(
         raise InputError(f"{stimulus!r} is no stimulus of {protocol.study}; known: {', '.join(wanted)}")
     spec = wanted[stimulus]
     robot = load_robot(spec.robot, protocol.folder)
-    WRITERS[form](generate(spec, robot).trajectory, robot, out)
+    write_motion(generate(spec, robot).trajectory, robot, out, form)
     console.print(f"{out} is written.")
 
 

@@ -37,6 +37,7 @@ def test_a_preview_of_all_is_a_contact_sheet_and_a_table(
     rows = list(csv.DictReader(table.read_text().splitlines()))
     assert [row["stimulus"] for row in rows] == ["neutral", "slow", "same"]
     assert float(rows[1]["duration_s"]) > float(rows[0]["duration_s"])
+    assert float(rows[0]["amplitude_HeadPitch"]) > float(rows[0]["amplitude_LHand"]) == 0
 
 
 def test_stimuli_named_get_poster_curves_and_a_comparison(

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 import yaml
 
+from stimuli.errors import InputError
+from stimuli.export import WRITERS, write_motion
 from stimuli.export.naoqi import (
     APPROACH_S,
     send,
@@ -83,3 +85,15 @@ def test_a_naoqi_robot_is_sent_what_is_written(tmp_path, demonstrate):
     assert absolute is True
     assert pytest.approx(shown.at(np.array(times[0]) - APPROACH_S)) == np.array(angles).T
     assert times[0][0] > 0
+
+
+@pytest.mark.parametrize("form", WRITERS)
+def test_what_only_pepper_plays_is_refused_for_other_robots(form, robot, demonstrate, tmp_path):
+    if form in ("csv", "ros"):
+        write_motion(demonstrate(1), robot, tmp_path / "out", form)
+        assert (tmp_path / "out").stat().st_size > 0
+        with pytest.raises(InputError, match=r"nowhere/out: cannot be written: No such file"):
+            write_motion(demonstrate(1), robot, tmp_path / "nowhere" / "out", form)
+    else:
+        with pytest.raises(InputError, match=rf"{form} is for Pepper; toy .* For any robot: csv, ros"):
+            write_motion(demonstrate(1), robot, tmp_path / "out", form)

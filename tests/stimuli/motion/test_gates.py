@@ -12,7 +12,7 @@ from stimuli.dmp import Primitive
 from stimuli.errors import InputError
 from stimuli.kinematics import axes
 from stimuli.principles import Modulation
-from stimuli.relations import ALIGNED_RAD, described, found, relations_of
+from stimuli.relations import ALIGNED_RAD, described, found, in_short, relations_of
 from stimuli.robots import ROBOTS, load_robot
 from stimuli.robots.model import Relation, Within
 from stimuli.rollout import integrate
@@ -86,6 +86,13 @@ def test_the_elbow_of_pepper_follows_the_shoulder_that_its_upper_arm_lets_throug
         "RShoulderPitch -> RElbowRoll (opposed) while RShoulderRoll > -30 deg and RElbowYaw > 62 deg"
         in listed
     )
+
+
+def test_relations_on_one_line_show_their_signs_and_what_they_depend_on(robot):
+    assert in_short(found(robot)) == (
+        "Hip -> -Waist; Waist -> ±Elbow [Shoulder] ([…]: while these are within limits)"
+    )
+    assert in_short(()) == "no joint drives another"
 
 
 def test_a_joint_that_opens_a_gate_is_carried_out_before_it(robot):

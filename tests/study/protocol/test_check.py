@@ -16,7 +16,7 @@ def found(report, about):
 
 def test_the_papers_protocol_is_one_screen():
     report = check(load_protocol(PAPER))
-    assert len(str(report).splitlines()) <= 24
+    assert len(str(report).splitlines()) <= 28
     assert found(report, "orders").message == "36 participants fill them evenly, as does every multiple of 6"
     assert found(report, "recognition").within == "orders"
     assert found(report, "stop").message == "the study closes itself when 36 have completed it"
@@ -65,3 +65,24 @@ def test_uneven_numbers_and_missing_texts_and_gestures_are_said(load, written):
     assert "gestures.explain: " in found(report, "gestures").message
     assert str(report).endswith("Not ready: mend what is marked ✗.")
     assert report.as_json()["good"] is False
+
+
+def test_a_gesture_that_is_eased_is_to_be_minded(load, written, tmp_path):
+    (tmp_path / "gestures").mkdir()
+    samples = "".join(f"{k / 50},{0.4 * k / 50}\n" for k in range(51))
+    (tmp_path / "gestures" / "cut.csv").write_text("time,HeadYaw\n" + samples)
+    written = {name: written[name] for name in ("study", "title", "contact", "robot", "seed", "participants")}
+    written |= {
+        "gestures": {"cut": "gestures/cut.csv"},
+        "parts": {
+            "only": {
+                "title": {"en": "Only", "de": "Nur"},
+                "stimuli": {"gesture": "cut", "modulations": ["neutral"]},
+                "ask": [{"text": {"item": "remark", "text": {"en": "Remark", "de": "Bemerkung"}}}],
+            }
+        },
+    }
+    minded = [one.message for one in check(load(written)).findings if one.about == "gestures"]
+    assert minded[-1].startswith("cut moves at its start and end; eased over 0.2 s of it")
+    refusing = load(written | {"learning": {"moving_ends": "refuse"}})
+    assert "moves at its start or end" in str(check(refusing))
