@@ -57,11 +57,17 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def lay_out(figure: Figure) -> None:
-    """Place everything, once; a figure with a layout engine would be drawn twice for each file."""
+    """Place everything, once; a figure with a layout engine would be drawn twice for each file.
+
+    Places are rounded, as the last digits of a layout differ from run to run.
+    """
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     if figure.axes:
         ConstrainedLayoutEngine().execute(figure)
+    for axes in figure.axes:
+        left, bottom, width, height = (round(float(place), 6) for place in axes.get_position().bounds)
+        axes.set_position((left, bottom, width, height))
 
 
 @dataclass(frozen=True)
