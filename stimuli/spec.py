@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
 
-MOTION = "motion/2"
+MOTION = "motion/3"
 """Names the way from a demonstration to a motion; whoever changes what comes out changes the name."""
 
 

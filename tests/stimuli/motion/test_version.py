@@ -25,7 +25,7 @@ joints:
   HeadPitch: {0: home, 1: 10, 2: home}
 """
 KNOWN = (
-    "motion/2",
+    "motion/3",
     {  # principle: duration (s), norm of the pose at 0.4 of it, norm of the mean pose
         "": (2.00, 2.601465, 2.661885),
         "arc": (2.27, 2.603278, 2.659813),
