@@ -1,4 +1,4 @@
-"""Six expressions show as we and our sources say, levels differ, and gestures are like real ones; docs agree."""
+"""Six expressions show as sources or we say, levels differ, and gestures are like real ones; docs agree."""
 
 from __future__ import annotations
 
