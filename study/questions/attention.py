@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
@@ -21,7 +21,7 @@ class Attention(Choice):
     kind: ClassVar[str] = "attention"
     item: str = Field("attention", pattern=r"^[a-z][a-z0-9_]*$")
     expected: str
-    at: tuple[int, ...] | None = Field(None, min_length=1)  # trials of the part; all, unless told
+    at: tuple[Annotated[int, Field(ge=1)], ...] | None = Field(None, min_length=1)  # trials; all, unless told
 
     @model_validator(mode="before")
     @classmethod

@@ -7,10 +7,11 @@ import re
 from collections.abc import Mapping
 from typing import ClassVar
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from study.questions.question import AnswerError, Question
 from study.text import Text
+from study.written import wrong_at
 
 
 class Number(Question):
@@ -22,6 +23,12 @@ class Number(Question):
     most: float | None = None
     whole: bool = False
     unit: Text | None = None
+
+    @model_validator(mode="after")
+    def _bounds_leave_room(self) -> Number:
+        if self.least is not None and self.most is not None and self.most < self.least:
+            raise wrong_at(("most",), f"must not be less than least ({self.least:g})", self.most)
+        return self
 
     @property
     def items(self) -> Mapping[str, Text]:

@@ -146,7 +146,7 @@ def allowed(name: str) -> bool:
     free = {
         "misspelt": r"study|robot|gestures\.\w+(\.file|\.robot)?|video\.camera"
         r"|parts\.\w+\.ask\.\d\.\w+\.(item|unit)|.*\.(prefix|completion_url|reason)",
-        "far too small": r".*\.(number\.(least|most)|attention\.at\.0)",
+        "far too small": r".*\.number\.least",
         "{}": r"video|analysis|modulations\.\w+(\.times)?|.*\.(max_run|exclude|recruitment)",
         "[]": r"authors|amendments",
         "None": r"practice|modulations\.\w+\.goal.*|.*attention\.at",
