@@ -155,9 +155,10 @@ class _Block:
     def _refuse_stray_quotes(self) -> None:
         """Refuse a quotation mark that neither encloses a value nor is doubled within one."""
         marks = np.flatnonzero(self.body == QUOTE)
-        neighbours = self.body[
-            marks + np.tile([-1, 1], marks.size // 2)
-        ]  # before an opening, after a closing
+        outside = np.tile(
+            [-1, 1], marks.size // 2
+        )  # of an opening the byte before, of a closing the one after
+        neighbours = self.body[marks + outside]
         stray = ~np.isin(neighbours, (self.mark, NEWLINE, QUOTE))
         if stray.any():
             place = int(marks[np.argmax(stray)])

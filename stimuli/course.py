@@ -6,7 +6,6 @@ share s = t / tau of the motion's duration, 0 at the start and 1 at its end; the
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from stimuli.robots.model import Relation, Robot
 from stimuli.trajectory import FloatArray
 
@@ -80,9 +79,7 @@ class Course:
         """Where a joint stands; InputError, naming the place that names the joint, where there is none."""
         if joint in self.joints:
             return self.joints.index(joint)
-        near = difflib.get_close_matches(joint, self.joints, 1)
-        hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(self.joints)}"
-        raise InputError(f"{place}: {self.robot.name} has no joint {joint!r}{hint}")
+        raise InputError(f"{place}: {self.robot.name} has no joint {joint!r}; {nearest(joint, self.joints)}")
 
     @property
     def rate(self) -> float:

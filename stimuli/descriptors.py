@@ -31,9 +31,7 @@ DESCRIPTORS = {  # what each is, with its unit; of moving joints together: Eucli
     "head_forward_mean_m": "m, mean position of the head ahead of the robot's vertical axis",
 }
 
-_EVEN = (
-    1e-6  # duration² · jerk / speed, below which a motion goes evenly: its jerk is rounding, and has no log
-)
+_EVEN = 1e-6  # duration² · jerk / speed below which a motion is even: its jerk is rounding and has no log
 
 STILL = 0.01  # of a joint's range: joints that move less are not counted as moving
 

@@ -115,16 +115,18 @@ class Runner:
         return np.stack([self.positions, velocities])
 
     def _go_on(self, h: float) -> None:
-        """Take a step of h shares of the duration."""
-        course, now = self.course, self.share
+        """Take a step of h shares of the duration; a step that is refused changes nothing."""
+        course, now, share, gone = self.course, self.share, self.share + h, h
+        if course.clock is not None:
+            now, then = clock(course, np.array([now, share])).tolist()
+            gone = then - now
+        if now < course.window - ROUNDING:
+            for group in self._groups:
+                group.refuse_overrun(course, now + gone)
         if self._fades:
             self._fading = step_of("zoh", course.rate, h).across @ self._fading
-        self.share += h
-        pull, self._pull = self._pull, attractor_at(course, self.share)
-        if course.clock is not None:
-            now, then = clock(course, np.array([now, self.share])).tolist()
-            h = then - now
-        self._move(pull, now, h)
+        pull, self._pull, self.share = self._pull, attractor_at(course, share), share
+        self._move(pull, now, gone)
 
     def _move(self, pull: FloatArray, now: float, h: float) -> None:
         """Go from `now` on for h shares of the clock, the attractors going from `pull` to `self._pull`."""
@@ -140,10 +142,7 @@ class Runner:
                 steps, velocities = group.gates.passed(both, course.start)
                 new[:, group.columns] = old[0, group.columns] + steps[0], velocities[1]
                 continue
-            gain, mirror = 1.0, 1.0
-            if anticipating:
-                gain, mirror = group.gain, group.mirror
-                group.refuse_overrun(course, now + h)
+            gain, mirror = (group.gain, group.mirror) if anticipating else (1.0, 1.0)
             (shift, push), (shift_after, push_after) = group.from_sources(old), group.from_sources(new)
             new[:, group.columns] = -shift_after + step_of(course.scheme, course.rate, h, gain).taken(
                 old[:, group.columns] + shift,

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import csv
-import difflib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from stimuli.contact_sheet import contact_sheet
 from stimuli.curves import draw_curves
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from stimuli.manifest import Manifest
 from stimuli.motion import generate
 from stimuli.robots.model import Robot
@@ -33,9 +32,7 @@ def draw_preview(
         raise InputError(f"{folder}: there are no clips yet. `study render` makes them.")
     for id_ in stimuli:
         if id_ not in manifest.clips:
-            near = difflib.get_close_matches(id_, manifest.clips, 1)
-            hint = f" Did you mean {near[0]}?" if near else f" Known: {', '.join(manifest.clips)}."
-            raise InputError(f"{folder}: there is no clip of {id_!r}.{hint}")
+            raise InputError(f"{folder}: there is no clip of {id_!r}; {nearest(id_, manifest.clips)}")
     out.mkdir(parents=True, exist_ok=True)
     name = "-".join(stimuli) or "contact_sheet"
     drawn = [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 from typing import Annotated, Any, Self
@@ -11,17 +10,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, Wi
 from pydantic.functional_validators import ModelWrapValidatorHandler
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
+from stimuli.errors import nearest
+
 Location = tuple[str | int, ...]  # keys and indices from the top of a value to something in it
-
-
-def nearest(name: object, known: Iterable[str]) -> str:
-    """Say which of the known names was meant, if one is near, and otherwise list them all."""
-    names = list(known)
-    close = difflib.get_close_matches(str(name).lower(), [n.lower() for n in names], n=1, cutoff=0.6)
-    if close:
-        meant = next(n for n in names if n.lower() == close[0])
-        return f"did you mean {meant}?"
-    return "known: " + ", ".join(names) if names else "none is defined"
 
 
 NAME = "name"  # type of errors about a field's name rather than its value

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from stimuli.robots.model import Joint, Robot
 from stimuli.trajectory import FloatArray, Trajectory, even_times
 from stimuli.units import ANGLE, LENGTH
@@ -31,9 +30,8 @@ def known_joint(name: str, robot: Robot, place: str) -> Joint:
     try:
         return robot.joint(name)
     except KeyError:
-        near = difflib.get_close_matches(name, robot.joint_names, 1)
-        hint = f"; did you mean {near[0]}?" if near else f". Known: {', '.join(robot.joint_names)}"
-        raise InputError(f"{place}: {robot.name} has no joint {name!r}{hint}") from None
+        hint = nearest(name, robot.joint_names)
+        raise InputError(f"{place}: {robot.name} has no joint {name!r}; {hint}") from None
 
 
 def each_once(names: Iterable[str], place: str) -> None:

@@ -6,7 +6,6 @@ is the principle's intensity. What is not named is neutral, and neutral changes 
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import pkgutil
 from collections.abc import Iterable, Mapping
@@ -15,6 +14,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, SerializeAsAny, ValidationError, model_serializer, model_validator
 
 from stimuli.course import Course
+from stimuli.errors import nearest
 from stimuli.principles.principle import Principle, Stage
 
 __all__ = ["PRINCIPLES", "Modulation", "Principle", "Stage"]
@@ -76,7 +76,7 @@ def in_order(principles: Iterable[Principle]) -> tuple[Principle, ...]:
 def _principle(kind: object, parameters: object) -> Principle:
     """One principle from its parameters; ValueError names kind, field, value and what would do."""
     if kind not in PRINCIPLES:
-        raise ValueError(f"{kind!r} is not a principle{_nearest(kind, PRINCIPLES)}")
+        raise ValueError(f"{kind!r} is not a principle; {nearest(kind, PRINCIPLES)}")
     made = PRINCIPLES[str(kind)]
     if not isinstance(parameters, Mapping):
         parameters = {"intensity": parameters}
@@ -86,16 +86,10 @@ def _principle(kind: object, parameters: object) -> Principle:
         first = err.errors()[0]
         name = ".".join(str(part) for part in first["loc"])
         if first["type"] == "extra_forbidden":
-            raise ValueError(f"{kind}.{name}: no such parameter{_nearest(name, made.model_fields)}") from err
+            raise ValueError(f"{kind}.{name}: no such parameter; {nearest(name, made.model_fields)}") from err
         message = first["msg"].removeprefix("Value error, ")
         if not name:
             raise ValueError(message if message.startswith(f"{kind}.") else f"{kind}: {message}") from err
         if message.startswith(f"{kind}."):
             raise ValueError(message) from err
         raise ValueError(f"{kind}.{name}: {message}, not {first['input']!r}") from err
-
-
-def _nearest(name: object, known: Iterable[str]) -> str:
-    known = list(known)
-    near = difflib.get_close_matches(str(name), known, 1)
-    return f"; did you mean {near[0]}?" if near else f". Known: {', '.join(known)}"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from study.written import Location, nearest
+from stimuli.errors import nearest
+from study.written import Location
 
 Contradiction = tuple[Location, str]  # where, and what is wrong
 

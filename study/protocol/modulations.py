@@ -15,8 +15,9 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails
 
+from stimuli.errors import nearest
 from stimuli.principles import PRINCIPLES, Modulation
-from study.written import NAME, nearest, refusal, relocated, reworded, wrong_at
+from study.written import NAME, refusal, relocated, reworded, wrong_at
 
 LEVELS = ("low", "medium", "high")  # names of a list of three
 _OWN = ("extends", "plus", "times", "grid")

@@ -6,9 +6,10 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 
+from stimuli.errors import nearest
 from study.protocol.recorded import Recorded
 from study.protocol.recruitment import Recruitment
-from study.written import Seconds, Written, nearest, wrong
+from study.written import Seconds, Written, wrong
 
 Probability = Annotated[float, Field(gt=0, lt=1)]
 Test = Literal["one-sample t", "independent t", "paired t", "wilcoxon", "mcnemar", "binomial"]

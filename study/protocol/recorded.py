@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BeforeValidator, Field
 
+from stimuli.errors import nearest
 from study.protocol.contradiction import Contradiction
-from study.written import Location, Written, nearest
+from study.written import Location, Written
 
 if TYPE_CHECKING:
     from study.protocol.protocol import Protocol

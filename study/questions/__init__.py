@@ -11,8 +11,9 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, SerializeAsAny, ValidationError, WithJsonSchema
 
+from stimuli.errors import nearest
 from study.questions.question import AnswerError, Question
-from study.written import NAME, nearest, refusal, relocated, wrong, wrong_at
+from study.written import NAME, refusal, relocated, wrong, wrong_at
 
 __all__ = ["ANY_QUESTION", "QUESTIONS", "AnswerError", "Asked", "Question"]
 

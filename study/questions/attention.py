@@ -8,8 +8,9 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
+from stimuli.errors import nearest
 from study.questions.choice import Choice
-from study.written import nearest, wrong_at
+from study.written import wrong_at
 
 
 class Attention(Choice):

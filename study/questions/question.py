@@ -7,9 +7,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Self
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from study.text import Text
-from study.written import Written, nearest
+from study.written import Written
 
 
 class AnswerError(InputError):

@@ -14,10 +14,11 @@ from typing import Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from stimuli.errors import nearest
 from study.questions.question import Question
 from study.questions.sets import question_sets
 from study.text import Ends, NamedTexts, Text
-from study.written import nearest, wrong_at
+from study.written import wrong_at
 
 
 class Scale(Question):

@@ -81,7 +81,7 @@ def test_the_curves_show_the_joints_that_move_demonstrated_and_made(
 def test_a_stimulus_that_is_not_there_is_named_with_the_nearest(
     clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
 ) -> None:
-    with pytest.raises(InputError, match=r"there is no clip of 'slwo'\. Did you mean slow\?"):
+    with pytest.raises(InputError, match=r"there is no clip of 'slwo'; did you mean slow\?"):
         draw_preview(*clips, tmp_path, stimuli=["slwo"], robots={"pepper": pepper})
     with pytest.raises(InputError, match="there are no clips yet"):
         draw_preview(Manifest(), tmp_path, tmp_path, robots={})

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from stimuli.dmp import Learning, Primitive
 from stimuli.errors import InputError
 from stimuli.feasibility import in_short, violations
-from stimuli.online import run
+from stimuli.online import Runner, run
 from stimuli.principles import Modulation
 from stimuli.rollout import integrate
 from stimuli.spring import step_of
@@ -115,3 +115,13 @@ def test_a_motion_that_stands_still_rests(robot, demonstrate):
     still = replace(shown, positions=np.full_like(shown.positions, 0.1 + 0.2))
     rolled_out = Primitive.learn(still).rollout(Modulation(), robot)
     assert rolled_out.duration_s == pytest.approx(shown.duration_s)
+
+
+def test_a_refused_step_leaves_the_motion_where_it_was(robot, demonstrate):
+    runner = Runner(course_of(robot, demonstrate(1), ant={"intensity": 0.5}))
+    runner.step(0.05)
+    share, positions = runner.share, runner.positions
+    with pytest.raises(InputError, match="needs finer steps"):
+        runner.step(2.5)
+    assert runner.share == share
+    assert np.array_equal(runner.positions, positions)
