@@ -94,4 +94,4 @@ def test_a_preview_names_what_it_drew(rendered: subprocess.CompletedProcess[str]
     assert all(path.stat().st_size > 0 for path in drawn)
     wrong = study("preview", folder, "nod_quik")
     assert wrong.returncode == 1
-    assert "Did you mean nod_quick?" in wrong.stderr
+    assert "did you mean nod_quick?" in wrong.stderr
