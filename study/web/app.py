@@ -35,9 +35,8 @@ def create_app(site: Site) -> FastAPI:
     app.state.site = site
     app.state.limits = Limits()
     app.state.is_stopping = lambda: False  # the server knows better
-    app.include_router(participant.router)  # first, as addresses are looked for in this order
-    app.include_router(entry.router)
-    app.include_router(experimenter.router)
+    for router in (participant.router, entry.router, experimenter.router):  # looked for in this order
+        app.router.routes.extend(router.routes)  # `include_router` would match every request twice
     app.add_middleware(Guard)
     clips = {clip.name: clip for one in (site, *site.earlier.values()) for clip in one.clips.values()}
     static = {file.name: file for file in STATIC.iterdir()}

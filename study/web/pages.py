@@ -34,6 +34,9 @@ _environment = Environment(
 _markdown = MarkdownIt("commonmark").enable("table")
 
 
+_template = cache(_environment.get_template)
+
+
 @cache
 def prose(markdown: str) -> Markup:
     """Markdown as HTML, with everything taken out that could run or load something."""
@@ -62,7 +65,7 @@ def ask(
 ) -> Markup:
     """A question as HTML, by the template beside its kind."""
     shown = items or tuple(question.items)
-    template = _environment.get_template(question.template)
+    template = _template(question.template)
     _ = load_language(language).text
     return Markup(
         template.render(
@@ -74,7 +77,7 @@ def ask(
 def fragment(template: str, *, language: str, **values: Any) -> str:
     """A part of a page."""
     spoken = load_language(language)
-    return _environment.get_template(template).render({"_": spoken.text, "language": language} | values)
+    return _template(template).render({"_": spoken.text, "language": language} | values)
 
 
 @lru_cache(maxsize=2048)
@@ -107,5 +110,5 @@ def render(
     request: Request, template: str, *, language: str, status: int = 200, **values: Any
 ) -> HTMLResponse:
     """A page."""
-    content = _environment.get_template(template).render(_shared(request.app, language) | values)
+    content = _template(template).render(_shared(request.app, language) | values)
     return HTMLResponse(content, status_code=status)
