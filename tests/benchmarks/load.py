@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import random
 import time
+from collections import Counter
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from http.cookies import SimpleCookie
@@ -92,7 +94,7 @@ class Tally:
 
     door: asyncio.Barrier
     latencies_s: list[float] = field(default_factory=list)  # of every acknowledged answer
-    errors: int = 0
+    errors: Counter[str] = field(default_factory=Counter)  # by status, or by what broke the connection
     elapsed_s: float = 0.0
     own_cpu_s: float = 0.0  # of the crowd itself, which must not be what is measured
 
@@ -107,15 +109,35 @@ class Tally:
             return float("inf")
         return 1000 * sorted(self.latencies_s)[int(share * (len(self.latencies_s) - 1))]
 
-    async def time(self, sending: Awaitable[Answer]) -> Answer:
-        """Wait for an answer to be acknowledged, and count it."""
-        start = time.perf_counter()
+    async def time(self, sending: Awaitable[Answer], *, due: float | None = None) -> Answer:
+        """Wait for an answer to be acknowledged, and count it, from the moment on when it was due."""
+        start = time.perf_counter() if due is None else due
         answer = await sending
         if answer.status < 400:
             self.latencies_s.append(time.perf_counter() - start)
         else:
-            self.errors += 1
+            self.errors[str(answer.status)] += 1
         return answer
+
+
+class Pace:
+    """When one participant answers: at once, or every so many seconds, whether or not the server keeps up.
+
+    Moments do not depend on the server, so that one slow answer does not spare it the next (Tene 2013 calls
+    that coordinated omission): what is sent late because its page came late counts from when it was due.
+    """
+
+    def __init__(self, participant: int | str, every_s: float) -> None:
+        self._every_s = every_s
+        self._due = time.perf_counter() + random.Random(participant).random() * every_s
+
+    async def wait(self) -> float | None:
+        """Wait for the next moment; gives it, or None where answers come without thinking."""
+        if not self._every_s:
+            return None
+        due, self._due = self._due, self._due + self._every_s
+        await asyncio.sleep(max(0.0, due - time.perf_counter()))
+        return due
 
 
 async def crowd(
@@ -125,7 +147,7 @@ async def crowd(
     *,
     once_in: Callable[[], object] = lambda: None,
 ) -> Tally:
-    """Let so many take part side by side, without thinking time, for so long or until all are done.
+    """Let so many take part side by side for so long, or until all are done.
 
     A visit waits at `tally.door` once, before its first answer; `once_in` is called when everybody is there.
     """
@@ -143,5 +165,5 @@ async def crowd(
     for one in running:
         one.cancel()
     results = await asyncio.gather(*visits, return_exceptions=True)
-    tally.errors += sum(isinstance(result, Exception) for result in results)
+    tally.errors.update(type(result).__name__ for result in results if isinstance(result, Exception))
     return tally

@@ -13,7 +13,7 @@ from pathlib import Path
 from random import getrandbits
 from uuid import UUID
 
-from tests.benchmarks.load import Browser, Tally
+from tests.benchmarks.load import Browser, Pace, Tally
 
 PROTOCOL = Path("protocols/hielscher2025")
 PAGE = re.compile(r'<script type="application/json" id="page">(.*?)</script>', re.DOTALL)
@@ -58,7 +58,11 @@ def study(folder: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
 
 
 async def take_part(
-    address: str, tally: Tally, acknowledged: Callable[[str], object] = lambda _: None
+    address: str,
+    tally: Tally,
+    *,
+    every_s: float = 0.0,
+    acknowledged: Callable[[str], object] = lambda _: None,
 ) -> None:
     """Take the study again and again, each time as somebody else, from somewhere else."""
     for time in count():
@@ -68,9 +72,12 @@ async def take_part(
         page = await browser.post("/consent", {"agreed": "yes", "language": "en"})
         if time == 0:
             await tally.door.wait()
+            pace = Pace(number, every_s)
         while found := PAGE.search(page.text):
             submission = _answered(json.loads(found[1]), page.text)
-            sent = await tally.time(browser.post_json("/study/answers", json.dumps(submission).encode()))
+            due = await pace.wait()
+            sending = browser.post_json("/study/answers", json.dumps(submission).encode())
+            sent = await tally.time(sending, due=due)
             if sent.status == 200:
                 acknowledged(submission["id"])
             page = await browser.get("/study")
