@@ -9,6 +9,7 @@ from fractions import Fraction
 from analysis.statistics.t_test import Alternative, TTest
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+TOGETHER = re.compile(r" [=<>] |95% CI \[[^\]]*\]|F\([^)]*\)")
 SIDES: dict[Alternative, str] = {
     "greater": "one-sided",
     "less": "one-sided",
@@ -54,8 +55,8 @@ def degrees(df: float | None) -> str:
 
 
 def unbroken(sentence: str) -> str:
-    """A sentence that is not broken within "p = .014"."""
-    return re.sub(r" ([=<>]) ", "\u00a0\\1\u00a0", sentence)
+    """A sentence that is not broken within "p = .014", "95% CI [0.06, 1.03]" or "F(5, 125)"."""
+    return TOGETHER.sub(lambda found: found[0].replace(" ", "\u00a0"), sentence)
 
 
 def factor(value: float | None) -> str:

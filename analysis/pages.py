@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from analysis.apa import unbroken
 from analysis.drawing import ALARM, FAINT, INK, STYLE, Drawing, lay_out
 
 if TYPE_CHECKING:
@@ -16,8 +17,10 @@ if TYPE_CHECKING:
 WIDTH_IN, HEIGHT_IN, MARGIN_IN = 210 / 25.4, 297 / 25.4, 0.85  # A4
 TEXT_IN = WIDTH_IN - 2 * MARGIN_IN
 LEADING = 1.42  # line height, in font sizes
-FIGURE_IN = 5.2  # width of a figure on a page
-STEPS_IN = {"title": 0.12, "heading": 0.09, "text": 0.07}  # below each
+FIGURE_IN = 4.7  # width of a figure on a page
+BELOW_IN = 0.07  # below a paragraph
+TALLEST_IN = HEIGHT_IN - 2 * MARGIN_IN - 1.5  # a figure that leaves room for its heading and caption
+TABLE_PT, GAP_IN = 7.5, 0.1  # size of the text of a table; the least between two of its columns
 
 
 class Pages:
@@ -32,6 +35,7 @@ class Pages:
         self.page: Figure | None = None
         self.number = 0
         self.y = 0.0  # inches above the lower edge
+        self.waiting: list[tuple[float, Callable[[], None]]] = []  # blocks kept with what comes next
 
     def __enter__(self) -> Pages:
         from matplotlib.backends.backend_pdf import PdfPages
@@ -48,29 +52,65 @@ class Pages:
         self.pdf.close()  # type: ignore[no-untyped-call]
         self._style.__exit__(None, None, None)
 
-    def write(self, text: str, *, size: float = 9, bold: bool = False, colour: str = INK) -> None:
-        """A paragraph, wrapped."""
-        widest = int(TEXT_IN * 72 / size / (0.58 if bold else 0.505))
-        lines = textwrap.wrap(text, widest) or [""]
+    def write(
+        self, text: str, *, size: float = 9, bold: bool = False, colour: str = INK, with_next: bool = False
+    ) -> None:
+        """A paragraph, wrapped; on the page of what comes next if so told."""
+        lines = [*_wrapped(unbroken(text), size=size, bold=bold)]
         height = size / 72 * LEADING
-        for line in lines:
-            self._room(height)
-            self._text(MARGIN_IN, line, size=size, bold=bold, colour=colour)
-            self.y -= height
-        self.y -= STEPS_IN["text"]
+
+        def paint() -> None:
+            for line in lines:
+                self._room(height)
+                self._text(MARGIN_IN, line, size=size, bold=bold, colour=colour)
+                self.y -= height
+            self.y -= BELOW_IN
+
+        self._place(height * len(lines) + BELOW_IN, paint, with_next=with_next)
 
     def heading(self, text: str, *, size: float = 12.5) -> None:
-        """A heading, never alone at the foot of a page."""
-        self._room(1.2)
-        self.y -= 0.14
-        self.write(text, size=size, bold=True)
+        """A heading, on the page of what comes next."""
+        self._place(0.14, partial(self._down, 0.14), with_next=True)
+        self.write(text, size=size, bold=True, with_next=True)
 
     def draw(self, drawing: Drawing) -> None:
         """A figure with its caption."""
+        height = min(drawing.height_in * FIGURE_IN / 3.5 * 0.9, TALLEST_IN)
+        self._place(height + 0.08, partial(self._paint, drawing, height), with_next=True)
+        self.write(drawing.caption, size=7.5, colour=FAINT)
+
+    def tabulate(self, head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+        """A table as wide as the page; the first column is text, the others numbers."""
+        body = [list(row) for row in rows]
+        height = TABLE_PT / 72 * 1.75
+        widths, size = _columns([head, *body])
+
+        def paint() -> None:
+            self._row(head, widths, size=size, bold=True)
+            self._rule()
+            for row in body:
+                self._room(height)
+                self._row(row, widths, size=size)
+                self.y -= height
+            self.y -= 0.12
+
+        self._place(height * min(len(body) + 2, 12), paint)
+
+    def _place(self, height: float, paint: Callable[[], None], *, with_next: bool = False) -> None:
+        """Paint a block and those that wait for it, all on one page if a page can hold them."""
+        self.waiting.append((height, paint))
+        if not with_next:
+            self._room(sum(height for height, _ in self.waiting))
+            for _, paint_one in self.waiting:
+                paint_one()
+            self.waiting.clear()
+
+    def _down(self, height: float) -> None:
+        self.y -= height
+
+    def _paint(self, drawing: Drawing, height: float) -> None:
         from matplotlib.gridspec import GridSpec
 
-        height = drawing.height_in * FIGURE_IN / 3.5 * 0.9
-        self._room(height + 0.6)
         assert self.page is not None
         left = (WIDTH_IN - FIGURE_IN) / 2
         grid = GridSpec(
@@ -79,33 +119,19 @@ class Pages:
         )  # fmt: skip
         drawing.onto(self.page.add_subfigure(grid[1, 1]))
         self.y -= height + 0.08
-        self.write(drawing.caption, size=7.5, colour=FAINT)
 
-    def tabulate(self, head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[float]) -> None:
-        """A table; the first column is text, the others numbers. `widths` are shares of the page."""
-        body = [list(row) for row in rows]
-        height = 7.5 / 72 * 1.75
-        self._room(height * min(len(body) + 1, 12))
-        self._row(head, widths, bold=True)
-        self._rule()
-        for row in body:
-            self._room(height)
-            self._row(row, widths)
-            self.y -= height
-        self.y -= 0.12
-
-    def _row(self, cells: Sequence[str], widths: Sequence[float], *, bold: bool = False) -> None:
+    def _row(self, cells: Sequence[str], widths: Sequence[float], *, size: float, bold: bool = False) -> None:
         right = MARGIN_IN
         for place, (cell, width) in enumerate(zip(cells, widths, strict=True)):
-            left, right = right, right + width * TEXT_IN
+            left, right = right, right + width
             x, align = (left, "left") if place == 0 else (right, "right")
-            self._text(x, cell, size=7.5, bold=bold, align=align)
+            self._text(x, cell, size=size, bold=bold, align=align)
 
     def _rule(self) -> None:
         from matplotlib.lines import Line2D
 
         assert self.page is not None
-        self.y -= 7.5 / 72 * 1.6
+        self.y -= TABLE_PT / 72 * 1.6
         level = (self.y + 0.04) / HEIGHT_IN
         self.page.add_artist(
             Line2D([MARGIN_IN / WIDTH_IN, 1 - MARGIN_IN / WIDTH_IN], [level, level], color=INK, linewidth=0.6)
@@ -143,3 +169,44 @@ class Pages:
         if self.page is not None:
             lay_out(self.page)
             self.pdf.savefig(self.page)  # type: ignore[no-untyped-call]
+
+
+def _wrapped(text: str, *, size: float, bold: bool) -> Iterator[str]:
+    """The lines of a paragraph, as wide as the page."""
+    line, *words = text.split(" ")
+    for word in words:
+        if _width_in(f"{line} {word}", size=size, bold=bold) > TEXT_IN:
+            yield line
+            line = word
+        else:
+            line += f" {word}"
+    yield line
+
+
+def _columns(rows: Sequence[Sequence[str]]) -> tuple[list[float], float]:
+    """Widths in inches of the columns, which fill the page, and the size of text that fits them."""
+    widths = [
+        max(_width_in(cell, size=TABLE_PT, bold=True) for cell in column)
+        for column in zip(*rows, strict=True)
+    ]
+    needed, gaps = sum(widths), GAP_IN * (len(widths) - 1)
+    shrunk = min(1, (TEXT_IN - gaps) / needed)
+    spare = (TEXT_IN - needed * shrunk) / max(1, len(widths) - 1)
+    return [width * shrunk + spare * (place > 0) for place, width in enumerate(widths)], TABLE_PT * shrunk
+
+
+def _width_in(text: str, *, size: float, bold: bool) -> float:
+    """How wide a text is printed."""
+    return sum(_advance(character, bold=bold) for character in text) * size / 72
+
+
+@cache
+def _advance(character: str, *, bold: bool) -> float:
+    """The width of a character, in sizes of its font."""
+    from matplotlib.font_manager import FontProperties, findfont, get_font
+
+    font = get_font(
+        findfont(FontProperties(family=STYLE["font.family"], weight="bold" if bold else "normal"))
+    )
+    font.set_size(100, 72)
+    return float(font.load_char(ord(character)).linearHoriAdvance) / 65536 / 100

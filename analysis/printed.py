@@ -18,10 +18,8 @@ if TYPE_CHECKING:
     from study.protocol import Protocol
 
 TARGET_HEAD = ("Clip", "N", "M", "SD", "t", "df", "p", "p adj.", "d [95% CI]")
-TARGET_WIDTHS = (0.15, 0.06, 0.08, 0.08, 0.1, 0.08, 0.1, 0.11, 0.24)
 LEVEL_HEAD = ("Principle", "shares", "t", "df", "p", "p adj.", "d [95% CI]", "McNemar p", "diff. [95% CI]")
 RATING_HEAD = ("Rating", "means", "t", "df", "p", "p adj.", "d [95% CI]", "Welch p", "diff. [95% CI]")
-LEVEL_WIDTHS = (0.1, 0.11, 0.07, 0.06, 0.08, 0.08, 0.18, 0.13, 0.19)
 
 
 def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) -> None:
@@ -62,21 +60,23 @@ def _outcome(
     pages.write(
         f"The same test as {outcome.mirrors} seen from the other side: printed, not counted again."
         if isinstance(outcome, Levels) and mirrored
-        else method(outcome)
+        else method(outcome),
+        with_next=True,
     )
     if not mirrored:
         pages.draw(drawings[outcome.name])
         if isinstance(outcome, Targets):
-            pages.tabulate(TARGET_HEAD, _target_rows(outcome, labels), TARGET_WIDTHS)
+            pages.tabulate(TARGET_HEAD, _target_rows(outcome, labels))
             pages.write(
-                f"By other definitions of chance, {outcome.judging.adjustment} p († another decision):"
+                f"By other definitions of chance, {outcome.judging.adjustment} p († another decision):",
+                with_next=True,
             )
             pages.tabulate(*_definitions(outcome, labels))
         elif isinstance(outcome, Levels):
             head = LEVEL_HEAD if outcome.comparison.outcome else RATING_HEAD
-            pages.tabulate(head, _level_rows(outcome, labels), LEVEL_WIDTHS)
+            pages.tabulate(head, _level_rows(outcome, labels))
     for key, sentence in sentences(outcome).items():
-        pages.write(f"{labels.get(key, key.capitalize())}: {apa.unbroken(sentence)}.", size=8)
+        pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
 
 
 def _target_rows(outcome: Targets, labels: Mapping[str, str]) -> list[list[str]]:
@@ -92,9 +92,7 @@ def _target_rows(outcome: Targets, labels: Mapping[str, str]) -> list[list[str]]
     return rows
 
 
-def _definitions(
-    outcome: Targets, labels: Mapping[str, str]
-) -> tuple[list[str], list[list[str]], list[float]]:
+def _definitions(outcome: Targets, labels: Mapping[str, str]) -> tuple[list[str], list[list[str]]]:
     results = outcome.results
     head = ["Definition", *(labels.get(key, key.capitalize()) for key in results)]
     rows = [
@@ -106,7 +104,7 @@ def _definitions(
         ]
         for name, other in next(iter(results.values())).sensitivity.items()
     ]
-    return head, rows, [0.46] + [0.54 / len(results)] * len(results)
+    return head, rows
 
 
 def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:

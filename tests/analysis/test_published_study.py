@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -113,6 +114,14 @@ def test_the_report_stands_alone(study: tuple[Results, Path]) -> None:
     assert "t(66) = 2.26, p = .014, one-sided" in report
     for outside in ('src="http', 'href="http', "<script", "@import"):
         assert outside not in report
+
+
+def test_what_is_defined_on_hover_is_defined_below_too(study: tuple[Results, Path]) -> None:
+    report = (study[1] / "report.html").read_text(encoding="utf-8")
+    on_hover = set(re.findall(r'<abbr title="([^"]+)"', report))
+    below = report[report.index('id="definitions"') :]
+    assert len(on_hover) > 20
+    assert all(f"<dd>{text}</dd>" in below for text in on_hover)
 
 
 def test_equal_responses_give_equal_bytes_and_mujoco_is_not_needed(

@@ -1,0 +1,59 @@
+"""Pages of a PDF: what belongs together stands together, and nothing overlaps or leaves the page."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from analysis.drawing import Drawing
+from analysis.pages import Pages
+
+LONG = "a sentence of many words, some of them iiiiiiii and some WWWWWWWW, p = .014, 95% CI [0.06, 1.03] " * 4
+NAMES = ["Rating", "means", "t", "df", "d [95% CI]", "difference [95% CI]"]
+FIGURE = Drawing(name="f", paint=lambda figure: None, height_in=2, caption=LONG, alt="")
+
+
+def texts(pages: Pages) -> list[str]:
+    assert pages.page is not None
+    return [text.get_text() for text in pages.page.texts]
+
+
+@pytest.mark.parametrize("lines", range(20, 56, 7))
+def test_a_heading_stands_on_the_page_of_its_figure_and_the_caption_too(tmp_path: Path, lines: int) -> None:
+    with Pages(tmp_path / "p.pdf", "T", "footer") as pages:
+        for _ in range(lines):
+            pages.write("filled")
+        before = pages.number
+        pages.heading("Effect sizes")
+        pages.write("How they were tested.", with_next=True)
+        pages.draw(FIGURE)
+        here = texts(pages)
+        assert "Effect sizes" in here and "How they were tested." in here
+        assert any(text.startswith("a sentence") for text in here)
+        assert pages.number - before <= 1
+
+
+def test_a_figure_taller_than_a_page_is_drawn_smaller(tmp_path: Path) -> None:
+    with Pages(tmp_path / "p.pdf", "T", "footer") as pages:
+        pages.heading("Effect sizes")
+        pages.draw(Drawing(name="f", paint=lambda figure: None, height_in=20, caption="Many.", alt=""))
+        assert {"Effect sizes", "Many."} < set(texts(pages))
+        assert pages.number == 1
+
+
+@pytest.mark.parametrize("columns", [2, 6])
+def test_columns_of_a_table_never_touch_and_lines_end_before_the_margin(tmp_path: Path, columns: int) -> None:
+    row = ["Anthropomorphism of the robot seen from behind", "14.43 / 13.53", "−13.03", "66", "< .001"]
+    with Pages(tmp_path / "p.pdf", "T", "") as pages:
+        pages.tabulate(NAMES[:columns], [[*row, "0.90 [−10.24, 11.56] " * 4][:columns]])
+        pages.write(LONG)
+        assert pages.page is not None
+        FigureCanvasAgg(pages.page)
+        boxes = [text.get_window_extent() for text in pages.page.texts if text.get_text()]
+        right = pages.page.bbox.width - boxes[0].width / 2
+        for one, other in pairwise(boxes[1 : 1 + 2 * columns]):
+            assert other.y0 < one.y0 - 1 or other.x0 > one.x1
+        assert max(box.x1 for box in boxes) < right
