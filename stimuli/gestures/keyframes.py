@@ -16,15 +16,17 @@ that names one is refused for others.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 import yaml
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic_core import ErrorDetails
 from scipy.interpolate import BPoly, PchipInterpolator
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from stimuli.gestures.reading import (
     each_once,
     in_joint_unit,
@@ -33,6 +35,7 @@ from stimuli.gestures.reading import (
     sampled_times,
     whole_body,
 )
+from stimuli.lines import line_of
 from stimuli.robots.model import Joint, Robot
 from stimuli.trajectory import FloatArray, Trajectory
 from stimuli.units import TIME, in_base_unit
@@ -40,7 +43,19 @@ from stimuli.units import TIME, in_base_unit
 SUFFIXES = (".yaml", ".yml")
 
 Seconds = Annotated[float, BeforeValidator(lambda value: in_base_unit(value, TIME))]
-Keys = Annotated[dict[Seconds, float | Literal["home"]], Field(min_length=1)]
+
+
+def _position(value: object) -> object:
+    """A number or `home`; also a number with a unit is refused, as one unit stands for the file."""
+    if value == "home":
+        return value
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
+        return float(value)
+    raise ValueError("must be a number without a unit, which `unit` names for all angles, or home")
+
+
+Position = Annotated[float | Literal["home"], BeforeValidator(_position)]
+Keys = Annotated[dict[Seconds, Position], Field(min_length=1)]
 
 
 class Keyframes(BaseModel):
@@ -60,27 +75,23 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     """The gesture in a keyframe file."""
     text = read_text(path)
     try:
-        tree = yaml.compose(text, Loader=yaml.SafeLoader)
-        frames = Keyframes.model_validate(yaml.safe_load(text))
+        tree = yaml.compose(text, Loader=yaml.CSafeLoader)
+        frames = Keyframes.model_validate(yaml.load(text, Loader=yaml.CSafeLoader))
     except (yaml.YAMLError, RecursionError) as err:
         raise InputError(f"{path}: not readable as YAML: {err}") from err
     except ValidationError as err:
-        first = err.errors()[0]
-        name = ".".join(str(part) for part in first["loc"])
-        message = first["msg"].removeprefix("Value error, ")
-        raise InputError(
-            f"{path}:{_line(tree, first['loc'])}: {name}: {message}, not {first['input']!r}"
-        ) from err
+        raise InputError("\n".join(_refusal(detail, tree, path) for detail in err.errors())) from None
     if frames.robot not in (None, robot.name):
+        place = f"{path}:{line_of(tree, ('robot',))}: robot"
         raise InputError(
-            f"{path}:{_line(tree, ('robot',))}: robot: the gesture is for {frames.robot}, not {robot.name}; "
+            f"{place}: the gesture is for {frames.robot}, not {robot.name}; "
             "leave the line out where it suits both"
         )
-    each_once(_names(tree, "joints"), f"{path}:{_line(tree, ('joints',))}: joints")
-    times = sampled_times(frames.duration, dt_s, f"{path}:{_line(tree, ('duration',))}: duration")
+    each_once(_names(tree, "joints"), f"{path}:{line_of(tree, ('joints',))}: joints")
+    times = sampled_times(frames.duration, dt_s, f"{path}:{line_of(tree, ('duration',))}: duration")
     moving = {}
     for name, keys in frames.joints.items():
-        place = f"{path}:{_line(tree, ('joints', name))}"
+        place = f"{path}:{line_of(tree, ('joints', name))}"
         joint, home = known_joint(name, robot, place), robot.home[name]
         if len(keys) < len(_names(tree, "joints", name)):
             raise InputError(f"{place}: joints.{name}: two keys lie at one time; keep one of them")
@@ -106,6 +117,29 @@ def between_keys(moments: FloatArray, values: FloatArray, times: FloatArray) -> 
     return np.asarray(quintics(np.clip(times, moments[0], moments[-1])), dtype=np.float64)
 
 
+_WORDS = {
+    "missing": "is missing",
+    "dict_type": "must be a mapping (name: value)",
+    "model_type": "must be a mapping (name: value), such as docs/formats.md shows",
+    "string_type": "must be text",
+    "literal_error": "must be deg or rad",
+    "too_short": "must not be empty",
+}  # by pydantic's types of errors
+
+
+def _refusal(detail: ErrorDetails, tree: yaml.Node | None, path: Path) -> str:
+    """One error at its line, in words about the file."""
+    location = tuple(part for part in detail["loc"] if part != "[key]")
+    name, value = ".".join(map(str, location)), detail["input"]
+    message = _WORDS.get(detail["type"], detail["msg"].removeprefix("Value error, "))
+    message = message.replace("Input should be", "must be")
+    if detail["type"] == "extra_forbidden":
+        message = f"is no field here; {nearest(location[-1], Keyframes.model_fields)}"
+    elif isinstance(value, (str, int, float)) and not message.startswith(shown := repr(value)[:60]):
+        message = f"{shown} {message}"
+    return ": ".join(filter(None, (f"{path}:{line_of(tree, location)}", name, message)))
+
+
 def _check(moments: FloatArray, values: FloatArray, frames: Keyframes, joint: Joint, place: str) -> None:
     """InputError where a key lies outside the gesture or the joint's range."""
     for moment in moments[(moments < 0) | (moments > frames.duration)]:
@@ -129,16 +163,3 @@ def _names(node: yaml.Node | None, *location: str) -> list[str]:
         node = next(value for key, value in node.value if key.value == part)
     assert isinstance(node, yaml.MappingNode)
     return [key.value for key, _ in node.value]
-
-
-def _line(node: yaml.Node | None, location: tuple[Any, ...]) -> int:
-    """Line in the file, from 1, of the innermost entry on the way to a location."""
-    line = 1
-    for part in location:
-        if not isinstance(node, yaml.MappingNode):
-            break
-        for key, value in node.value:
-            if key.value == str(part):
-                line, node = key.start_mark.line + 1, value
-                break
-    return line

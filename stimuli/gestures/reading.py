@@ -14,6 +14,7 @@ from stimuli.trajectory import FloatArray, Trajectory, even_times
 from stimuli.units import ANGLE, LENGTH
 
 LONGEST_S = 600.0  # a gesture beyond it was written in another unit of time
+LARGEST = 1_000_000  # bytes of a file of keys; what is longer would only keep one waiting
 
 _UNITS = {"revolute": ANGLE, "prismatic": LENGTH, "dimensionless": {"1": 1.0}}  # by kind of joint
 _SPELLINGS = {"°": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad"}
@@ -68,9 +69,18 @@ def in_joint_unit(value: float, unit: str, joint: Joint) -> float:
     return math.radians(value) if joint.kind == "revolute" and unit == "deg" else value
 
 
-def read_text(path: Path) -> str:
-    """The file's text, UTF-8. InputError where it is something else."""
+def read_text(path: Path, largest: int = LARGEST) -> str:
+    """The file's text, UTF-8. InputError where it is something else, nothing, or beyond `largest` bytes."""
     try:
-        return path.read_text(encoding="utf-8-sig")
+        with path.open("rb") as file:
+            content = file.read(largest + 1)
+        text = content[:largest].decode("utf-8-sig") if len(content) <= largest else None
     except (OSError, UnicodeDecodeError) as err:
         raise InputError(f"{path}: cannot be read as UTF-8 text: {err}") from err
+    if text is None:
+        raise InputError(
+            f"{path}: is larger than {largest / 1e6:g} MB, which no gesture in this format needs"
+        )
+    if not text.strip():
+        raise InputError(f"{path}: is empty; docs/formats.md shows what stands in a gesture's file")
+    return text

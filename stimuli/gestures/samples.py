@@ -29,10 +29,12 @@ from stimuli.units import TIME
 
 SUFFIXES = (".csv",)
 
+LARGEST = 8_000_000  # bytes; ten minutes of 17 joints at 100 Hz
+
 
 def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     """The gesture in a table of samples."""
-    rows = list(csv.reader(read_text(path).splitlines()))
+    rows = list(csv.reader(read_text(path, LARGEST).splitlines()))
     header = [cell.strip() for cell in rows[0]] if rows else []
     second = _second(header, f"{path}:1")
     columns = [_column(title, robot, f"{path}:1") for title in header[1:]]

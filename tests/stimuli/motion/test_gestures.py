@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
@@ -69,7 +71,11 @@ def test_keyframes_pass_through_their_keys_and_rest_at_both_ends(tmp_path, robot
             r":8: joints.Shoulder: a key at 2.5 s; keys lie from 0 to the duration, 2 s",
         ),
         ("duration: 2.0 s", "duration: -2 s", r":6: duration: .*greater than 0"),
-        ("unit: deg", "unti: deg", r":5: unti: Extra inputs"),
+        ("unit: deg", "unti: deg", r":5: unti: is no field here; did you mean unit\?"),
+        ("unit: deg", "unit: degrees", r":5: unit: 'degrees' must be deg or rad"),
+        ("1.4: 60", "1.4: 60 deg", r":8: joints.Shoulder.1.4: '60 deg' must be a number without a unit"),
+        ("1.4: 60", "1.4: .nan", r":8: joints.Shoulder.1.4: nan must be a number"),
+        ("gesture: ", "gestur: ", r": gesture: is missing\n.*:2: gestur: is no field"),
         ("duration: 2.0 s", "duration: {", r"not readable as YAML"),
         ("duration: 2.0 s", "duration: " + "[" * 5000, r"not readable as YAML"),
         ("duration: 2.0 s", "duration: 1e15", r":6: duration: the gesture lasts 1e\+15 s"),
@@ -148,7 +154,7 @@ def test_uneven_unsorted_and_repeated_samples_give_the_motion_they_come_from(tmp
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", ":1: the first column is 'time'"),
+        (",", ":1: the first column is 'time'"),
         ("time,Wiast\n0,1\n1,2", ":1: toy has no joint 'Wiast'; did you mean Waist"),
         ("time,Waist\n0,1\n1,x", ":3: .*every cell is a number"),
         ("time,Waist\n0,1\n1", ":3: 1 cells; the header has 2"),
@@ -183,6 +189,15 @@ def test_what_is_no_gesture_is_refused(tmp_path, robot):
     with pytest.raises(InputError, match="no such file"):
         read_gesture(tmp_path / "a.yaml", robot)
     assert {".yaml", ".csv", ".qianim"} <= set(READERS)
+
+
+@pytest.mark.parametrize("suffix", sorted(READERS))
+@pytest.mark.parametrize(("content", "message"), [("", "is empty"), ("x" * 10**7, "is larger than")])
+def test_an_empty_and_a_huge_file_are_refused_at_once(suffix, content, message, tmp_path, robot):
+    started = time.process_time()
+    with pytest.raises(InputError, match=rf"a\{suffix}: {message}"):
+        read_gesture(written(tmp_path, f"a{suffix}", content), robot)
+    assert time.process_time() - started < 1
 
 
 CHOREGRAPHE = """# Choregraphe bezier export in Python.
