@@ -295,6 +295,7 @@ def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_], naming: Naming
         lambda row: (
             f"response {rows.value('response', row)!r} is not an answer to "
             f"{rows.value('item', row)}; known: {', '.join(filter(None, options))}, or empty for none"
+            f"{rows.hint(row)}"
         ),
     )
     cells = np.ravel_multi_index((items, stimuli, rows.person[mine]), shape)

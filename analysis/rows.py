@@ -66,6 +66,11 @@ class Rows:
             record = 1 + self.skipped + row // self.per_record
             return next(line for number, line in enumerate(filled) if number == record)
 
+    def hint(self, row: int) -> str:
+        """What may be wrong with a row because of where it stands."""
+        is_first = self.per_record > 1 and row < self.per_record
+        return ". If this row holds headings, leave it out" if is_first else ""
+
     def refuse_second(self, mine: NDArray[np.bool_], cells: NDArray[np.int64], number: int) -> None:
         """Refuse two of the rows `mine` that answer the same; `cells` says what each does, of `number`."""
         answered = np.zeros(number, dtype=bool)
@@ -102,7 +107,8 @@ class Rows:
         if bad.any():
             row = int(np.argmax(bad))
             said = message if isinstance(message, str) else message(row)
-            more = f" ({int(bad.sum())} rows like this)" if bad.sum() > 1 else ""
+            records = np.unique(np.flatnonzero(bad) // self.per_record).size
+            more = f" ({records} rows like this)" if records > 1 else ""
             raise ResponsesError(f"{self.path}:{self.line(row)}: {said}{more}")
 
 

@@ -1,9 +1,13 @@
-"""Tables with one record per participant and one column per answer, as Qualtrics and LimeSurvey have."""
+"""Tables with one record per participant and one column per answer, as survey programs export them.
+
+Qualtrics has two more rows of headings below the first, SoSci Survey one if labels were asked for; both say
+of each record whether it is an answer or a test.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +20,8 @@ from analysis.rows import OPTIONAL, REQUIRED, Rows
 Asked = Mapping[str, Sequence[str]]  # stimulus → items
 STATUS, PREVIEW, TEST, SPAM = "Status", 1, 2, 8  # Qualtrics' column, and what its numbers are sums of
 IMPORT_ID = '{"ImportId"'  # in the third line of Qualtrics' tables
+CASE, MODE, INTERVIEW = "CASE", "MODE", "interview"  # SoSci Survey's columns, and the mode of an answer
+SOSCI = {CASE, "QUESTNNR"}  # what its tables are known by
 
 
 def answer_columns(
@@ -59,9 +65,10 @@ def read_wide(
             "--column participant=ResponseId"
         )
     carried = [name for name in ("participant", "session") if name in columns]
-    status = {STATUS} & set(header)
-    found = read_columns(path, {*(columns[name] for name in carried), *answers.values(), *status})
-    skipped = 2 if any(IMPORT_ID in one.at(1) for one in found.values() if one.codes.size > 1) else 0
+    apart = {STATUS, CASE, MODE} & set(header)
+    found = read_columns(path, {*(columns[name] for name in carried), *answers.values(), *apart})
+    sosci = set(header) >= SOSCI
+    skipped = int(not found[CASE].at(0).isdecimal()) if sosci else _headings_of_qualtrics(found.values())
     given = [found[theirs] for theirs in answers.values()]
     records, k = given[0].codes.size - skipped, len(given)
     first = np.cumsum([0, *(len(one.values) for one in given)])  # of each column's values among all
@@ -76,18 +83,24 @@ def read_wide(
     values = [value for one in given for value in one.values]
     long["response"] = Column.of(values, np.stack(placed, axis=1).ravel())
     rows = Rows(path, long, per_record=k, skipped=skipped)
-    if skipped and status:
-        _refuse_tests(rows, found[STATUS])
+    if sosci and MODE in found:
+        _refuse_tests(rows, MODE, found[MODE], lambda mode: mode == INTERVIEW)
+    elif skipped and STATUS in found:
+        _refuse_tests(rows, STATUS, found[STATUS], _is_answer)
     return rows
 
 
-def _refuse_tests(rows: Rows, status: Column) -> None:
-    """Refuse Qualtrics' previews, tests and spam among the answers."""
-    bad = np.array([not _is_answer(value) for value in status.values])[status.codes[rows.skipped :]]
+def _headings_of_qualtrics(columns: Iterable[Column]) -> int:
+    return 2 if any(IMPORT_ID in one.at(1) for one in columns if one.codes.size > 1) else 0
+
+
+def _refuse_tests(rows: Rows, name: str, said: Column, is_answer: Callable[[str], bool]) -> None:
+    """Refuse previews, tests and spam among the answers."""
+    bad = np.array([not is_answer(value) for value in said.values])[said.codes[rows.skipped :]]
     rows.refuse_if(
         np.repeat(bad, rows.per_record),
         lambda row: (
-            f"{STATUS} {status.at(rows.skipped + row // rows.per_record)!r} is no participant's answer; "
+            f"{name} {said.at(rows.skipped + row // rows.per_record)!r} is no participant's answer; "
             "leave out such rows"
         ),
     )

@@ -1,10 +1,11 @@
-"""Whole studies in the files that Qualtrics and LimeSurvey export give the numbers of our own file."""
+"""Whole studies in the files that survey programs export give the numbers of our own file."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -40,6 +41,17 @@ QUALTRICS = """
     answers:
       recognition: {1: not at all, 5: very strongly}
       intensity: {lower: [lower intensity, "1"], higher: higher intensity}
+"""
+
+VARIABLES = {emotion: f"A{place}01" for place, emotion in enumerate(EMOTIONS, 1)}  # SoSci Survey's
+SOSCI = f"""
+  responses:
+    columns: {{participant: CASE}}
+    stimuli: {json.dumps(VARIABLES)}
+    items: {json.dumps({emotion: f"{place:02}" for place, emotion in enumerate(EMOTIONS, 1)})}
+    answers:
+      recognition: {{"": ["-9", "-1"]}}
+      intensity: {{lower: "1", higher: "2", "": "-9"}}
 """
 
 
@@ -86,6 +98,23 @@ def qualtrics(status: str = "IP Address") -> str:
     return table([names, texts, imported, *records], ",", csv.QUOTE_MINIMAL)
 
 
+def sosci(*, labels: bool, mode: str = "interview") -> str:
+    """Variables by question and item, codes, a row of labels if asked for, and who was only testing."""
+    names = ["CASE", "SERIAL", "REF", "QUESTNNR", "MODE", "STARTED"]
+    names += [f"{VARIABLES[s]}_{EMOTIONS.index(i) + 1:02}" if s in EMOTIONS else s for s, i in JUDGED]
+    texts = ["Interview-Nummer (fortlaufend)", "Personenkennung oder Teilnahmecode (sofern verwendet)"]
+    texts += ["Referenz (sofern im Link angegeben)", "Fragebogen, der im Interview verwendet wurde"]
+    texts += ["Interview-Modus", "Zeitpunkt zu dem das Interview begonnen hat (Europe/Berlin)"]
+    texts += [f"Ausdruck: {i}" for _, i in JUDGED]
+    codes = {"lower": "1", "higher": "2"}
+    records = [
+        [str(number), "", "", "base", mode if person == "P03" else "interview", "2026-11-20 10:12:13"]
+        + [codes.get(GIVEN[person, s, i], GIVEN[person, s, i]) for s, i in JUDGED]
+        for number, person in enumerate(PEOPLE, 101)
+    ]
+    return "\ufeff" + table([names, *([texts] if labels else []), *records], ";", csv.QUOTE_ALL)
+
+
 def table(records: Sequence[Sequence[str]], delimiter: str, quoting: int) -> str:
     file = io.StringIO(newline="")
     csv.writer(file, delimiter=delimiter, quoting=quoting, lineterminator="\r\n").writerows(records)  # type: ignore[arg-type]
@@ -121,6 +150,20 @@ def test_an_export_gives_the_same_answers_as_our_own_file(
     assert_same(read(tmp_path, saying(tmp_path, said), text), read_responses(write(ROWS), paper))
 
 
+@pytest.mark.parametrize("labels", [True, False])
+def test_sosci_survey_has_a_row_of_labels_or_none(
+    paper: Protocol, write: Write, tmp_path: Path, labels: bool
+) -> None:
+    found = read(tmp_path, saying(tmp_path, SOSCI), sosci(labels=labels))
+    own = read_responses(write(ROWS), paper)
+    assert found.participants == ("101", "102", "103", "104", "105")
+    for one, other in zip(found.questions, own.questions, strict=True):
+        assert np.array_equal(one.codes, other.codes)
+    all_but_one = re.sub(r'"\d"\s*$', '"-9"\n', sosci(labels=labels))
+    missing = read(tmp_path, saying(tmp_path, SOSCI), all_but_one).answers("intensity").codes
+    assert np.sum(missing < 0) == 1
+
+
 def test_one_row_per_answer_may_have_other_names_too(paper: Protocol, write: Write, tmp_path: Path) -> None:
     named = {emotion: f"clip {place}" for place, emotion in enumerate(EMOTIONS)}
     freude = {"joy": "Freude"}
@@ -149,6 +192,10 @@ def test_one_row_per_answer_may_have_other_names_too(paper: Protocol, write: Wri
         (QUALTRICS, qualtrics("Survey Preview"),
          r"export\.csv:\d+: Status 'Survey Preview' is no participant's answer; leave out such rows"),
         (QUALTRICS, qualtrics("1"), r"Status '1' is no participant's answer"),
+        (SOSCI, sosci(labels=True, mode="debug"),
+         r"export\.csv:6: MODE 'debug' is no participant's answer; leave out such rows$"),
+        (SOSCI, sosci(labels=True).replace("QUESTNNR", "QNR"),
+         r"export\.csv:2: response 'Ausdruck: joy' .* none\. If this row holds headings, leave it out"),
         (QUALTRICS, qualtrics().replace("very strongly", "strongly"),
          r"response 'strongly' is not an answer to \w+; known: not at all, 2, 3, 4, very strongly"),
     ],
