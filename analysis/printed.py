@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from analysis import apa
 from analysis.drawing import ALARM, FAINT, Drawing
+from analysis.further import SEED
 from analysis.pages import Pages
 from analysis.plan import Levels, Outcome, Targets
-from analysis.results import Results
+from analysis.results import Provenance, Results
 from analysis.threats import threats
 from analysis.words import claim, labels_of, method, sentences, summary, warnings
 
@@ -46,11 +47,8 @@ def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mappin
         for threat in threats(protocol):
             pages.write(f"– {threat}")
         pages.heading("Where the numbers come from")
-        pages.write(f"Responses SHA-256 {results.provenance.responses_sha256}", size=7.5)
-        if answered := results.provenance.answered:
-            pages.write(f"Answered {' to '.join(answered)}", size=7.5)
-        pages.write(f"Protocol SHA-256 {results.provenance.protocol_sha256}", size=7.5)
-        pages.write(", ".join(f"{k} {v}" for k, v in results.provenance.software.items()), size=7.5)
+        for line in _provenance(results.provenance):
+            pages.write(line, size=7.5)
 
 
 def _outcome(
@@ -77,6 +75,17 @@ def _outcome(
             pages.tabulate(head, _level_rows(outcome, labels))
     for key, sentence in sentences(outcome).items():
         pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
+
+
+def _provenance(provenance: Provenance) -> Iterator[str]:
+    yield f"Responses SHA-256 {provenance.responses_sha256}"
+    answered = dict.fromkeys(provenance.answered or ())
+    yield f"Answered {' to '.join(answered)}" if answered else "When was answered is not in the file"
+    if provenance.analysed:
+        yield f"Analysed {provenance.analysed}"
+    yield f"Protocol SHA-256 {provenance.protocol_sha256}"
+    yield f"Seeds {provenance.seed} of the study's orders, {SEED} of the bootstrap"
+    yield ", ".join(f"{package} {version}" for package, version in provenance.software.items())
 
 
 def _target_rows(outcome: Targets, labels: Mapping[str, str]) -> list[list[str]]:

@@ -36,12 +36,20 @@ if TYPE_CHECKING:
 PACKAGES = ("expressive-motion-study", "numpy", "scipy", "pandas", "matplotlib")
 
 
-def analyse(csv: Path, protocol: Protocol, out: Path, columns: Mapping[str, str] | None = None) -> Results:
+def analyse(
+    csv: Path,
+    protocol: Protocol,
+    out: Path,
+    columns: Mapping[str, str] | None = None,
+    *,
+    analysed: str | None = None,
+) -> Results:
     """Analyse responses as the protocol says and write everything into the folder `out`.
 
     Writes results.json, report.html, report.pdf, tables/ (LaTeX and CSV) and figures/ (SVG, PDF, PNG). Equal
-    input gives equal bytes. `columns` says where the file calls a column otherwise. Raises ResponsesError
-    where the file cannot be read without guessing, PlanError where the plan does not fit the study.
+    input gives equal bytes, so the time of the analysis is in them only where `analysed` says it. `columns`
+    says where the file calls a column otherwise. Raises ResponsesError where the file cannot be read without
+    guessing, PlanError where the plan does not fit the study.
     """
     with of_one_study(csv, protocol):
         responses = read_responses(csv, protocol, columns)
@@ -53,6 +61,7 @@ def analyse(csv: Path, protocol: Protocol, out: Path, columns: Mapping[str, str]
         software={"Python": python_version()} | {package: version(package) for package in PACKAGES},
         seed=protocol.seed,
         answered=responses.answered,
+        analysed=analysed,
     )
     results = Results(findings, provenance, look_further(findings, responses, protocol))
     drawings = draw(findings, labels_of(protocol))

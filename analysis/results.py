@@ -36,6 +36,7 @@ class Provenance:
     software: Mapping[str, str]
     seed: int = 0  # of the study's orders
     answered: tuple[str, str] | None = None  # when the first and the last answer were given
+    analysed: str | None = None  # when, where somebody said so: no clock is read, for equal bytes
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,7 @@ class Results:
             "protocol_sha256": self.provenance.protocol_sha256,
             "responses_sha256": self.provenance.responses_sha256,
             "answered_at": self.provenance.answered,
+            "analysed_at": self.provenance.analysed,
             "software": dict(self.provenance.software),
             "seed": self.provenance.seed,
             "alpha": self.findings.alpha,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -26,12 +27,20 @@ def analyse(
         list[str] | None,
         typer.Option("--column", metavar="OURS=THEIRS", help="A column of another name: participant=PID."),
     ] = None,
+    time: Annotated[
+        datetime | None,
+        typer.Option(
+            formats=["%Y-%m-%d", "%Y-%m-%dT%H:%M", "%Y-%m-%dT%H:%M%z"],
+            help="The time of the analysis, for the report; without, equal answers give equal files.",
+        ),
+    ] = None,
 ) -> None:
     """Carry out the protocol's plan of analysis: statistics, tables, figures and the report."""
     from analysis.report import analyse as analyse_responses
 
     columns = {ours: theirs for ours, _, theirs in (said.partition("=") for said in column or ())}
-    analyse_responses(responses, load(protocol), out, columns)
+    analysed = time.isoformat(timespec="minutes") if time else None
+    analyse_responses(responses, load(protocol), out, columns, analysed=analysed)
     console.print(f"The report is {out / 'report.html'}; all numbers are in {out / 'results.json'}.")
 
 

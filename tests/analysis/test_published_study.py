@@ -6,12 +6,14 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from analysis.report import analyse
 from analysis.results import Results
+from analysis.web import html
 from study.protocol import Protocol
 from tests.analysis.conftest import PAPER, choices, ratings
 
@@ -122,6 +124,18 @@ def test_what_is_defined_on_hover_is_defined_below_too(study: tuple[Results, Pat
     below = report[report.index('id="definitions"') :]
     assert len(on_hover) > 20
     assert all(f"<dd>{text}</dd>" in below for text in on_hover)
+
+
+def test_the_time_of_the_analysis_is_there_only_where_it_was_said(
+    study: tuple[Results, Path], paper: Protocol
+) -> None:
+    results, out = study
+    report = (out / "report.html").read_text(encoding="utf-8")
+    assert "when is not in the file" in report and "<dt>Analysed</dt>" not in report
+    provenance = replace(results.provenance, analysed="2026-11-22T10:00")
+    timed = replace(results, provenance=provenance)
+    assert "<dt>Analysed</dt><dd>2026-11-22T10:00</dd>" in html(timed, paper, {})
+    assert (results.as_json()["analysed_at"], timed.as_json()["analysed_at"]) == (None, "2026-11-22T10:00")
 
 
 def test_equal_responses_give_equal_bytes_and_mujoco_is_not_needed(
