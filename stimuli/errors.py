@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+LISTED = 40  # names at most, where none is near
+
 
 class InputError(Exception):
     """Something the user gave cannot be used; the message names the place, the value and what would do."""
@@ -17,4 +19,5 @@ def nearest(name: object, known: Iterable[str]) -> str:
     if close:
         meant = next(n for n in names if n.lower() == close[0])
         return f"did you mean {meant}?"
-    return "known: " + ", ".join(names) if names else "none is defined"
+    more = f" and {len(names) - LISTED} more" if len(names) > LISTED else ""
+    return f"known: {', '.join(names[:LISTED])}{more}" if names else "none is defined"

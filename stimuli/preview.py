@@ -28,8 +28,6 @@ def draw_preview(
 
     That is a poster and the joints' curves of each, and, of two or more, a clip of them side by side.
     """
-    if not manifest.clips:
-        raise InputError(f"{folder}: there are no clips yet. `study render` makes them.")
     for id_ in stimuli:
         if id_ not in manifest.clips:
             raise InputError(f"{folder}: there is no clip of {id_!r}; {nearest(id_, manifest.clips)}")

@@ -5,12 +5,11 @@ A packaged robot `name` is `name.yaml` (its facts) beside `name.py` with `load()
 
 from __future__ import annotations
 
-import difflib
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from stimuli.robots.model import Robot
 
 ROBOTS: tuple[str, ...] = tuple(
@@ -35,9 +34,7 @@ def load_robot(name_or_path: str, base: Path) -> Robot:
         from stimuli.robots.files import described_robot
 
         return described_robot(name_or_path)
-    near = difflib.get_close_matches(name_or_path, ROBOTS, n=1)
-    hint = f" Did you mean {near[0]!r}?" if near else ""
     raise InputError(
-        f"robot: {name_or_path!r} is not a robot.{hint} "
-        f"Known: {', '.join(ROBOTS)}, the path of a robot file, or robot_descriptions/NAME."
+        f"robot: {name_or_path!r} is not a robot; {nearest(name_or_path, ROBOTS)} "
+        "One of your own is the path of its YAML file, or robot_descriptions/NAME."
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import shutil
 import subprocess
 import sys
@@ -11,7 +10,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 
 PREFIX = "robot_descriptions/"
 CACHE = "ROBOT_DESCRIPTIONS_CACHE"
@@ -41,9 +40,7 @@ def find_description(name: str) -> Description:
             "pip install robot_descriptions"
         ) from error
     if wanted not in known:
-        near = difflib.get_close_matches(wanted, known, n=3)
-        hint = f"Did you mean {' or '.join(near)}?" if near else f"It has {len(known)} others."
-        raise InputError(f"{name}: {wanted!r} is not among the robot descriptions. {hint}")
+        raise InputError(f"{name}: {wanted!r} is not among the robot descriptions; {nearest(wanted, known)}")
     if shutil.which("git") is None:
         raise InputError(
             f"{name}: robot descriptions are fetched by git, which is not installed: apt-get install git"

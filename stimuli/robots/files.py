@@ -1,20 +1,4 @@
-"""A user's own robot: an MJCF or URDF model, and one small YAML file beside it.
-
-robot: my_robot
-title: My robot
-model: my_robot.urdf            # or MJCF; meshes are STL, OBJ or, in a URDF, COLLADA
-search: [../descriptions]       # folders that hold the URDF's packages, if none above the model does
-home: {shoulder: 0.4}           # rad or m; joints not named are at zero, or at the nearest limit
-velocities: {shoulder: 2.0}     # per second, where the model has none or they should differ
-hands: [wrist]
-head: head
-relations:                      # for Secondary Action and Follow Through; found from the tree unless given
-  - {source: shoulder, target: elbow, sign: -1}
-camera: {azimuth_deg: 20, elevation_deg: 6}
-look: {upper_arm: "#d95f02"}    # colours of links
-
-The model may also be `robot_descriptions/NAME` (see `stimuli.robots.descriptions`).
-"""
+"""A user's own robot: a URDF or MJCF model, and what `stimuli.robots.robot_file` says of it."""
 
 from __future__ import annotations
 
@@ -24,45 +8,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated
 
 import mujoco
 import numpy as np
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from scipy.spatial.transform import Rotation
 
 from stimuli.errors import InputError
 from stimuli.outline import placed, places, vertices
 from stimuli.robots.descriptions import PREFIX, find_description
 from stimuli.robots.facts import LOOK, sources_sha256
-from stimuli.robots.model import Joint, JointKind, Relation, Robot, Vector, View
+from stimuli.robots.model import Joint, JointKind, Robot, Vector
+from stimuli.robots.robot_file import Place, RobotFile, check_names, read_robot_file
 from stimuli.robots.urdf import Mimic, mimicked, read_urdf
 
 KINDS: Mapping[int, JointKind] = {
     int(mujoco.mjtJoint.mjJNT_HINGE): "revolute",
     int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
 }
-CODE = tuple(f"robots/{name}.py" for name in ("files", "urdf", "meshes"))
-Colour = Annotated[str, Field(pattern="^#[0-9a-fA-F]{6}$")]
-
-
-class RobotFile(BaseModel):
-    """What the YAML file says."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    robot: str
-    title: str
-    model: str
-    search: tuple[Path, ...] = ()
-    home: Mapping[str, float] = Field(default_factory=dict)
-    velocities: Mapping[str, float] = Field(default_factory=dict)
-    hands: tuple[str, ...] = ()
-    head: str | None = None
-    relations: tuple[Relation, ...] | None = None
-    camera: View = View()
-    look: Mapping[str, Colour] = Field(default_factory=dict)
+HALF_TURNS = (-np.pi, np.pi)  # of a hinge that turns without end
+CODE = tuple(f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "meshes"))
 
 
 @dataclass(frozen=True)
@@ -77,54 +41,38 @@ class Body:
 
 def read_robot(path: Path) -> Robot:
     """The robot a YAML file describes. InputError where the file or its model cannot be used."""
-    try:
-        facts = RobotFile.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
-    except (OSError, yaml.YAMLError) as error:
-        raise InputError(f"{path}: cannot be read as a robot file: {error}") from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        raise InputError(f"{path}: {'.'.join(map(str, first['loc']))}: {first['msg']}") from error
-    return robot_from(facts, path)
+    facts, place = read_robot_file(path)
+    return robot_from(facts, place, path.parent)
 
 
 def described_robot(name: str) -> Robot:
     """A robot of the package `robot_descriptions`, as it comes."""
     title = name.removeprefix(PREFIX).removesuffix("_description").removesuffix("_mj").replace("_", " ")
-    return robot_from(RobotFile(robot=name, title=title, model=name), Path(name))
+    return robot_from(RobotFile(robot=name, title=title, model=name), lambda _: name, Path())
 
 
-def robot_from(facts: RobotFile, place: Path) -> Robot:
-    """The robot with these facts, written at this place."""
+def robot_from(facts: RobotFile, place: Place, folder: Path) -> Robot:
+    """The robot with these facts, written at this place; its model's path is relative to the folder."""
     if facts.model.startswith(PREFIX):
         found = find_description(facts.model)
         source, search, origin = found.model, found.search, found.origin
     else:
-        source, search, origin = place.parent / facts.model, (), facts.model
-    body = Body(source, (*(place.parent / folder for folder in facts.search), *search))
+        source, search, origin = folder / facts.model, (), facts.model
+    body = Body(source, (*(folder / other for other in facts.search), *search))
     urdf = read_urdf(source, body.search) if source.suffix == ".urdf" else None
     mimics = dict(urdf.mimics) if urdf else {}
     spec = build(body)
     model = spec.compile()
     every = _joints(model, source, {**(urdf.velocities if urdf else {}), **facts.velocities}, mimics)
-    names = {joint.name for joint in every}
-    links = {model.body(index).name for index in range(model.nbody)}
-    for entry, given, known, what in (
-        ("home", facts.home, names, "joint that moves by itself"),
-        ("velocities", facts.velocities, names, "joint that moves by itself"),
-        ("hands", facts.hands, links, "link"),
-        ("head", [facts.head] if facts.head else [], links, "link"),
-        ("look", facts.look, links, "link"),
-        ("relations", [n for r in facts.relations or () for n in (r.source, r.target)], names, "joint"),
-    ):
-        if unknown := sorted(set(given) - known):
-            raise InputError(
-                f"{place}: {entry}: {unknown[0]!r} is no {what}. Known: {', '.join(sorted(known))}."
-            )
+    if not every or not model.ngeom:
+        raise InputError(f"{source}: it has nothing {'to see' if every else 'that moves'}")
+    links = [model.body(index).name for index in range(model.nbody)]
+    check_names(facts, [joint.name for joint in every], links, place)
     home = {j.name: facts.home.get(j.name, min(max(0.0, j.lower), j.upper)) for j in every}
     for joint in every:
         if not joint.lower <= home[joint.name] <= joint.upper:
             raise InputError(
-                f"{place}: home: {joint.name}: {home[joint.name]:g} is outside the joint's range, "
+                f"{place(('home', joint.name))}: {home[joint.name]:g} is outside the joint's range, "
                 f"{joint.lower:g} to {joint.upper:g} {joint.unit}"
             )
     body = replace(body, look=facts.look, lift_m=-_lowest(model, mimicked(home, mimics)))
@@ -157,9 +105,10 @@ def build(body: Body) -> mujoco.MjSpec:
         spec.compiler.boundmass = spec.compiler.boundinertia = 1e-4  # nothing is simulated
         spec.compile()
     except (OSError, ValueError) as error:
+        reason = " ".join(str(error).split())
         raise InputError(
-            f"{source}: MuJoCo cannot read this model: {error}. It must be a URDF, or an MJCF with meshes in "
-            "STL or OBJ."
+            f"{source}: MuJoCo cannot read this model: {reason}. It must be a URDF, or an MJCF with "
+            "meshes in STL or OBJ."
         ) from error
     shown = [geom for geom in spec.geoms if not geom.contype and not geom.conaffinity]
     hidden = [geom for geom in spec.geoms if shown and (geom.contype or geom.conaffinity)]
@@ -199,9 +148,13 @@ def _joints(
     joints = []
     led = {model.jnt_bodyid[model.joint(name).id] for name in mimics}
     for index in range(model.njnt):
-        if model.joint(index).name in mimics:
-            continue
         joint, child = model.joint(index), model.jnt_bodyid[index]
+        if not joint.name:
+            raise InputError(
+                f"{source}: the joint of body {model.body(child).name!r} has no name; give it one"
+            )
+        if joint.name in mimics:
+            continue
         if int(joint.type[0]) not in KINDS or model.body_jntnum[child] > 1 or np.any(joint.pos):
             raise InputError(
                 f"{source}: joint {joint.name!r}: only hinges and slides through their link's origin can be "
@@ -211,8 +164,12 @@ def _joints(
         while parent in led:
             parent = model.body_weldid[model.body_parentid[parent]]
         turn = data.xmat[parent].reshape(3, 3).T
-        limited = bool(joint.limited[0])
-        low, high = joint.range if limited else (-np.pi, np.pi)
+        kind, limited = KINDS[int(joint.type[0])], bool(joint.limited[0])
+        if kind == "prismatic" and not limited:
+            raise InputError(
+                f'{source}: joint {joint.name!r}: a slide without a range; give range="LOWER UPPER", in m'
+            )
+        low, high = joint.range if limited else HALF_TURNS
         xyz = turn @ (data.xpos[child] - data.xpos[parent])
         rpy = Rotation.from_matrix(turn @ data.xmat[child].reshape(3, 3)).as_euler("xyz")
         joints.append(
@@ -220,7 +177,7 @@ def _joints(
                 name=joint.name,
                 parent=model.body(parent).name,
                 child=model.body(child).name,
-                kind=KINDS[int(joint.type[0])],
+                kind=kind,
                 origin_xyz=_vector(xyz),
                 origin_rpy=_vector(rpy),
                 axis=_vector(joint.axis),

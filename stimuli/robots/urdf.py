@@ -7,9 +7,12 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from xml.parsers.expat import ExpatError
 
 from stimuli.errors import InputError
+from stimuli.lines import read_xml
 from stimuli.robots.meshes import read_pieces
+from stimuli.robots.urdf_checks import Places, check_urdf
 
 PACKAGE = "package://"
 
@@ -36,10 +39,11 @@ class Urdf:
 def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
     """Read a URDF; its packages lie in the folders of `search`, or in one above the file."""
     try:
-        root = ET.parse(source).getroot()
-    except (OSError, ET.ParseError) as error:
+        root, lines = read_xml(source)
+    except (OSError, ExpatError) as error:
         raise InputError(f"{source}: cannot be read as a URDF: {error}") from error
-    _refuse_unfinished(root, source)
+    places = Places(source, lines)
+    check_urdf(root, places)
     folders = [*search, *source.resolve().parents]
     if root.find("link/visual") is not None:
         _keep_only_what_is_seen(root)
@@ -48,22 +52,23 @@ def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
         for shape in [*link.findall("visual"), *link.findall("collision")]:
             mesh = shape.find("geometry/mesh")
             if mesh is not None:
+                found = find_mesh(mesh.get("filename", ""), source.parent, folders, places.of(mesh))
                 link.remove(shape)
-                link.extend(_dressed(shape, find_mesh(mesh.get("filename", ""), source, folders), meshes))
+                link.extend(_dressed(shape, found, meshes))
     options = root.find("mujoco")
     options = ET.SubElement(root, "mujoco") if options is None else options
     for compiler in options.findall("compiler"):
         options.remove(compiler)
     ET.SubElement(options, "compiler", discardvisual="false", fusestatic="false", strippath="true")
-    return Urdf(ET.tostring(root, encoding="unicode"), meshes, _velocities(root), _mimics(root, source))
+    return Urdf(ET.tostring(root, encoding="unicode"), meshes, _velocities(root), _mimics(root, places))
 
 
-def find_mesh(filename: str, source: Path, folders: Sequence[Path]) -> Path:
+def find_mesh(filename: str, beside: Path, folders: Sequence[Path], place: str) -> Path:
     """The file a mesh's name means. InputError where it is not there, saying where it was looked for."""
     if not filename.startswith(PACKAGE):
-        path = source.parent / filename.removeprefix("file://")
+        path = beside / filename.removeprefix("file://")
         if not path.is_file():
-            raise InputError(f"{source}: the mesh {filename!r} is not there: {path}")
+            raise InputError(f"{place}: the mesh {filename!r} is not there: {path}")
         return path
     package, _, rest = filename.removeprefix(PACKAGE).partition("/")
     roots = [folder if folder.name == package else folder / package for folder in folders]
@@ -72,10 +77,10 @@ def find_mesh(filename: str, source: Path, folders: Sequence[Path]) -> Path:
             return root / rest
     present = [root for root in roots if root.is_dir()]
     if present:
-        raise InputError(f"{source}: the mesh {filename!r} is not in the package: {present[0] / rest}")
+        raise InputError(f"{place}: the mesh {filename!r} is not in the package: {present[0] / rest}")
     looked = ", ".join(map(str, folders))
     raise InputError(
-        f"{source}: {filename!r}: there is no folder {package!r} in {looked}. Name the folder it lies in: "
+        f"{place}: {filename!r}: there is no folder {package!r} in {looked}. Name the folder it lies in: "
         "`search: [PATH]` in the robot's YAML file."
     )
 
@@ -86,26 +91,6 @@ def mimicked(positions: Mapping[str, float], mimics: Mapping[str, Mimic]) -> dic
         name: mimic.multiplier * positions[mimic.joint] + mimic.offset for name, mimic in mimics.items()
     }
     return {**positions, **following}
-
-
-def _refuse_unfinished(root: ET.Element, source: Path) -> None:
-    """InputError where xacro is left to expand, or a joint's limits are no range."""
-    for element in root.iter():
-        if "xacro" in element.tag or any("${" in value for value in element.attrib.values()):
-            raise InputError(
-                f"{source}: this is xacro still, at <{element.tag.rpartition('}')[2]}>. Expand it first"
-            )
-    for joint in root.iterfind("joint"):
-        limit = joint.find("limit")
-        if limit is None:
-            continue
-        place = f"{source}: joint {joint.get('name')!r}: limit"
-        try:
-            low, high, _ = (float(limit.get(name, 0)) for name in ("lower", "upper", "velocity"))
-        except ValueError as error:
-            raise InputError(f"{place}: {error}") from error
-        if low > high:
-            raise InputError(f"{place}: lower {low:g} is above upper {high:g}")
 
 
 def _keep_only_what_is_seen(root: ET.Element) -> None:
@@ -141,27 +126,26 @@ def _velocities(root: ET.Element) -> dict[str, float]:
     return {name: velocity for name, velocity in velocities.items() if velocity > 0}
 
 
-def _mimics(root: ET.Element, source: Path) -> dict[str, Mimic]:
+def _mimics(root: ET.Element, places: Places) -> dict[str, Mimic]:
     """Each joint that follows another, by the one that leads them all."""
-    written: dict[str, Mimic] = {}
-    for joint in root.iterfind("joint"):
-        if (entry := joint.find("mimic")) is not None:
-            numbers = (float(entry.get("multiplier", 1)), float(entry.get("offset", 0)))
-            written[joint.get("name", "")] = Mimic(entry.get("joint", ""), *numbers)
-    names = {joint.get("name") for joint in root.iterfind("joint")}
-    for name, mimic in written.items():
-        if mimic.joint not in names:
-            raise InputError(f"{source}: joint {name!r} mimics {mimic.joint!r}, which is no joint")
-    return {name: _led(name, written, source) for name in written}
+    entries = {joint.get("name", ""): joint.find("mimic") for joint in root.iterfind("joint")}
+    written = {
+        name: Mimic(entry.get("joint", ""), float(entry.get("multiplier", 1)), float(entry.get("offset", 0)))
+        for name, entry in entries.items()
+        if entry is not None
+    }
 
+    def led(name: str) -> Mimic:
+        mimic, seen = written[name], {name}
+        while mimic.joint in written:
+            if mimic.joint in seen:
+                entry = entries[name]
+                assert entry is not None
+                raise InputError(f"{places.of(entry)}: joint {name!r}: mimic: it follows itself")
+            seen.add(mimic.joint)
+            leader = written[mimic.joint]
+            multiplier = mimic.multiplier * leader.multiplier
+            mimic = Mimic(leader.joint, multiplier, mimic.multiplier * leader.offset + mimic.offset)
+        return mimic
 
-def _led(name: str, written: Mapping[str, Mimic], source: Path) -> Mimic:
-    mimic, seen = written[name], {name}
-    while mimic.joint in written:
-        if mimic.joint in seen:
-            raise InputError(f"{source}: joint {name!r} mimics itself")
-        seen.add(mimic.joint)
-        leader = written[mimic.joint]
-        multiplier = mimic.multiplier * leader.multiplier
-        mimic = Mimic(leader.joint, multiplier, mimic.multiplier * leader.offset + mimic.offset)
-    return mimic
+    return {name: led(name) for name in written}

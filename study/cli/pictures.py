@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from rich.table import Table
 
-from stimuli.errors import InputError
+from stimuli.errors import InputError, nearest
 from study.cli.command import (
     AsJson,
     Clips,
@@ -68,6 +69,9 @@ def preview(
     protocol = load(path)
     folder = clips or protocol.folder / "stimuli"
     manifest = Manifest.load(folder)
+    if not manifest.clips:
+        makes = shlex.join(["study", "render", str(path), *(["--clips", str(clips)] if clips else [])])
+        raise InputError(f"{folder}: there are no clips yet. `{makes}` makes them.")
     names = {clip.spec["robot"] for clip in manifest.clips.values()}
     robots = {name: load_robot(name, protocol.folder) for name in names}
     with console.status("drawing …"):
@@ -119,7 +123,7 @@ def motion(
     protocol = load(path)
     wanted = specs(protocol)
     if stimulus not in wanted:
-        raise InputError(f"{stimulus!r} is no stimulus of {protocol.study}; known: {', '.join(wanted)}")
+        raise InputError(f"{stimulus!r} is no stimulus of {protocol.study}; {nearest(stimulus, wanted)}")
     spec = wanted[stimulus]
     robot = load_robot(spec.robot, protocol.folder)
     write_motion(generate(spec, robot).trajectory, robot, out, form)

@@ -83,5 +83,3 @@ def test_a_stimulus_that_is_not_there_is_named_with_the_nearest(
 ) -> None:
     with pytest.raises(InputError, match=r"there is no clip of 'slwo'; did you mean slow\?"):
         draw_preview(*clips, tmp_path, stimuli=["slwo"], robots={"pepper": pepper})
-    with pytest.raises(InputError, match="there are no clips yet"):
-        draw_preview(Manifest(), tmp_path, tmp_path, robots={})

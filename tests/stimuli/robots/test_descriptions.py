@@ -74,7 +74,7 @@ def test_a_description_is_put_into_a_file_of_ones_own(commit: str, tmp_path: Pat
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("two_mj_descriptions", "is not among the robot descriptions. Did you mean two_mj_description"),
+        ("two_mj_descriptions", "is not among the robot descriptions; did you mean two_mj_description"),
         ("os", "is not among the robot descriptions"),
         ("far_description", "OSError: Could not resolve host.*ROBOT_DESCRIPTIONS_CACHE"),
     ],

@@ -94,11 +94,14 @@ def test_what_cannot_be_used_is_said_with_its_place(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"nowhere\.yaml: cannot be read"):
         load_robot("nowhere.yaml", tmp_path)
     broken = URDF.replace('<cylinder radius="0.1" length="0.2"/>', '<mesh filename="package://a/b.dae"/>')
-    with pytest.raises(InputError, match=r"two\.urdf: .* there is no folder 'a' in .*`search: \[PATH\]`"):
+    with pytest.raises(InputError, match=r"two\.urdf:2: .* there is no folder 'a' in .*`search: \[PATH\]`"):
         load_robot(write(tmp_path, "two.urdf", broken), tmp_path)
     name = write(tmp_path, "two.urdf", URDF)
     (tmp_path / name).write_text((tmp_path / name).read_text().replace("{lift", "{lfit"))
-    with pytest.raises(InputError, match=r"home: 'lfit' is no joint that moves by itself\. Known: lift\."):
+    with pytest.raises(
+        InputError,
+        match=r"robot\.yaml:4: home\.lfit: 'lfit' is no joint that moves by itself; did you mean lift\?",
+    ):
         load_robot(name, tmp_path)
     ball = (
         '<mujoco><worldbody><body><joint name="b" type="ball"/><geom size=".1"/></body></worldbody></mujoco>'

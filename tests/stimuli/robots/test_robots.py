@@ -94,7 +94,7 @@ def test_two_robots_do_not_share_a_hash() -> None:
 
 
 def test_an_unknown_robot_is_answered_with_the_nearest_name() -> None:
-    with pytest.raises(InputError, match=r"'peper' is not a robot\. Did you mean 'pepper'\?"):
+    with pytest.raises(InputError, match=r"'peper' is not a robot; did you mean pepper\?"):
         load_robot("peper", HERE)
 
 

@@ -31,7 +31,7 @@ def test_the_papers_protocol_is_one_screen():
 def test_a_value_stands_once_in_its_message(load, written):
     written["robot"] = "peper"
     message = found(check(load(written)), "robot").message
-    assert message.count("peper'") == 1 and "is not a robot. Did you mean 'pepper'?" in message
+    assert message.count("peper'") == 1 and "is not a robot; did you mean pepper?" in message
 
 
 def test_a_gesture_is_told_from_a_protocol():

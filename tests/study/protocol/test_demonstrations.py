@@ -50,4 +50,4 @@ def test_a_robot_nobody_knows_is_named_at_the_gesture_that_asks_for_it(tmp_path:
     (tmp_path / "protocol.yaml").write_text(text.replace("robot: iiwa14", "robot: iiwa15"), encoding="utf-8")
     report = check(load_protocol(tmp_path))
     assert not report.good
-    assert "gestures.jagged.robot: 'iiwa15' is not a robot. Did you mean 'iiwa14'?" in str(report)
+    assert "gestures.jagged.robot: 'iiwa15' is not a robot; did you mean iiwa14?" in str(report)
