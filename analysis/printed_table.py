@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from pathlib import Path
 from typing import Literal
 
+from analysis.printed_layout import Record, number, read_records
 from stimuli.errors import InputError
 
 Kind = Literal["shares", "percentages", "counts", "means"]
 MEANS = {"mean", "m"}
+SPREADS, SIZES = {"sd", "s.d."}, {"n"}  # beside means
 OTHER = re.compile(
     r"(?i)s\.?d\.?|s\.?e\.?(m\.?)?|n|t|df|p|d|g|f|z|w|ci.*|.*[ _]ci|min|max|median|mdn|p[ _-]?value"
 )
-DELIMITERS = ",;\t"
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,8 @@ class PrintedRow:
     line: int
     labels: tuple[str, ...]
     cells: tuple[Decimal, ...]
+    sd: Decimal | None = None  # of a mean
+    n: int | None = None  # participants behind a mean, where the table says so row by row
 
     @property
     def name(self) -> str:
@@ -44,12 +46,6 @@ class PrintedTable:
     unchecked: tuple[str, ...]  # columns of other numbers
 
 
-@dataclass(frozen=True)
-class _Record:
-    line: int
-    cells: tuple[str, ...]
-
-
 def read_table(path: Path, n: int) -> PrintedTable:
     """Read a table: columns of words are labels, columns of numbers its cells.
 
@@ -58,7 +54,7 @@ def read_table(path: Path, n: int) -> PrintedTable:
     `M`, no other is; else the cells are percentages if they bear "%" or rows add up to 100, counts if they
     are whole and above 1, and else shares. Raises InputError.
     """
-    header, records = _records(path)
+    header, records = read_records(path)
     numeric = [place for place, name in enumerate(header) if _holds_numbers(path, name, place, records)]
     means = [place for place in numeric if header[place].lower() in MEANS]
     cells = means or _without_numbering(
@@ -74,7 +70,8 @@ def read_table(path: Path, n: int) -> PrintedTable:
         PrintedRow(
             record.line,
             tuple(record.cells[place] for place in labels),
-            tuple(_number(record.cells[place]) or Decimal(0) for place in cells),
+            tuple(number(record.cells[place]) or Decimal(0) for place in cells),
+            *_beside(record, header, numeric if means else ()),
         )
         for record in records
     ]
@@ -92,6 +89,16 @@ def read_table(path: Path, n: int) -> PrintedTable:
         whole=kind != "means" and len(cells) > 1 and _mostly_whole(rows, n if kind == "counts" else 1),
         unchecked=tuple(header[place] for place in numeric if place not in cells),
     )
+
+
+def _beside(
+    record: Record, header: Sequence[str], places: Sequence[int]
+) -> tuple[Decimal | None, int | None]:
+    """The standard deviation and the number of participants beside a mean."""
+    found = {header[place].lower(): number(record.cells[place]) for place in places}
+    sd = next((value for name, value in found.items() if name in SPREADS), None)
+    n = next((value for name, value in found.items() if name in SIZES), None)
+    return sd, int(n) if n else None
 
 
 def _kind(rows: Sequence[PrintedRow], n: int, *, marked: bool) -> Kind:
@@ -117,9 +124,9 @@ def _exponent(cell: Decimal) -> int:
     return exponent if isinstance(exponent, int) else 0
 
 
-def _holds_numbers(path: Path, name: str, place: int, records: Sequence[_Record]) -> bool:
+def _holds_numbers(path: Path, name: str, place: int, records: Sequence[Record]) -> bool:
     """Whether a column is one of numbers; refused where it is, but for a cell."""
-    bad = [record for record in records if _number(record.cells[place]) is None]
+    bad = [record for record in records if number(record.cells[place]) is None]
     if 2 * len(bad) >= len(records):
         return False
     if bad:
@@ -132,44 +139,12 @@ def _holds_numbers(path: Path, name: str, place: int, records: Sequence[_Record]
     return True
 
 
-def _without_numbering(places: Sequence[int], records: Sequence[_Record]) -> list[int]:
+def _without_numbering(places: Sequence[int], records: Sequence[Record]) -> list[int]:
     """Columns of numbers without those that number the rows: whole beside columns with decimals."""
 
     def whole(place: int) -> bool:
-        numbers = [_number(record.cells[place]) or Decimal(0) for record in records]
+        numbers = [number(record.cells[place]) or Decimal(0) for record in records]
         return all(_exponent(number) >= 0 for number in numbers) and max(numbers) > 1
 
     numbering = [place for place in places if whole(place)]
     return [place for place in places if place not in numbering or len(numbering) == len(places)]
-
-
-def _number(text: str) -> Decimal | None:
-    """A printed number: 0.79, .79, 0,79, 79%, −0.5."""
-    plain = text.strip().removesuffix("%").strip().replace("−", "-").replace(",", ".")
-    try:
-        number = Decimal(plain)
-    except InvalidOperation:
-        return None
-    return number if number.is_finite() else None
-
-
-def _records(path: Path) -> tuple[list[str], list[_Record]]:
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is not UTF-8; save the table as CSV UTF-8") from error
-    lines = text.splitlines()
-    delimiter = max(DELIMITERS, key=lines[0].count) if lines else ","
-    reader = csv.reader(lines, delimiter=delimiter)
-    records = [_Record(reader.line_num, tuple(cell.strip() for cell in row)) for row in reader if any(row)]
-    if len(records) < 2:
-        raise InputError(f"{path}: holds no rows below its header")
-    header = list(records[0].cells)
-    for record in records[1:]:
-        if len(record.cells) != len(header):
-            raise InputError(
-                f"{path}:{record.line}: has {len(record.cells)} cells; the header has {len(header)}"
-            )
-    return header, records[1:]

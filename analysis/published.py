@@ -7,7 +7,7 @@ whole-number ratings, and counts must add up.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -17,9 +17,10 @@ from pathlib import Path
 import numpy as np
 
 from analysis.apa import probability, t_sentence
-from analysis.printed_table import Kind, PrintedRow, read_table
+from analysis.printed_table import Kind, PrintedRow, PrintedTable, read_table
 from analysis.statistics.fisher import Fisher, fisher
-from analysis.statistics.student_t import student_t
+from analysis.statistics.samples import Moments
+from analysis.statistics.student_t import student_t, student_t_of
 from analysis.statistics.t_test import TTest
 
 # Of 34 participants, how many called the high- and the low-intensity motion "higher" (Hielscher, Bulling &
@@ -70,11 +71,13 @@ class Recomputed:
     """The tests that follow from two printed rows."""
 
     name: str
-    counts: tuple[tuple[int, int], tuple[int, int]]  # of both rows: first answer, second answer
-    student: TTest  # one-sided, first row above second
-    fisher: Fisher
+    counts: tuple[tuple[int, int], tuple[int, int]] | None  # of both rows: first answer, second answer
+    student: TTest  # one-sided, first row above second; of means as they are printed
+    fisher: Fisher | None  # of counts
 
     def __str__(self) -> str:
+        if self.counts is None or self.fisher is None:
+            return f"{self.name}: {t_sentence(self.student)}"
         (first, _), (second, _) = self.counts
         return (
             f"{self.name}: {first} against {second} of {sum(self.counts[0])}; {t_sentence(self.student)}; "
@@ -103,7 +106,7 @@ class Verification:
                 f"{self.cells} printed {self.kind} checked against n = {self.n}.{skipped}",
                 *(faults if self.faults else ["All of them are possible."]),
                 *(
-                    ["What follows from the possible rows (independent answers, one-sided):", *tests]
+                    ["What follows from the possible rows (independent groups, one-sided):", *tests]
                     if tests
                     else []
                 ),
@@ -129,30 +132,32 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
 
     The cells of a row are the shares of one whole where most rows add up to 1 (or 100%, or n); else each is
     checked alone. A column called `mean` or `M` holds means of `items` whole-number ratings per participant.
-    How a table is written: `analysis.printed_table`. Raises InputError where it cannot be read.
+    How a table is written: `analysis.printed_layout`. Raises InputError where it cannot be read.
     """
     printed = read_table(table, n)
-    answers = n * items if printed.kind == "means" else n
+    per_person = items if printed.kind == "means" else 1
     faults = [
-        fault for row in printed.rows for fault in _faults(row, answers, printed.kind, whole=printed.whole)
+        fault
+        for row in printed.rows
+        for fault in _faults(row, (row.n or n) * per_person, printed.kind, whole=printed.whole)
     ]
-    bad = {fault.line for fault in faults}
-    good = [row for row in printed.rows if row.line not in bad]
+    bad = {(fault.line, fault.row) for fault in faults}
+    good = [row for row in printed.rows if (row.line, row.name) not in bad]
     return Verification(
         n=n,
         kind=printed.kind,
         cells=sum(len(row.cells) for row in printed.rows),
         unchecked=printed.unchecked,
         faults=tuple(faults),
-        recomputed=tuple(_recompute(good, n)) if printed.whole else (),
+        recomputed=tuple(_recompute(good, n, printed)),
         other_sizes=None
-        if printed.kind == "counts"
+        if printed.kind == "counts" or any(row.n for row in printed.rows)
         else tuple(
             size
             for size in range(2, 2 * n + 1)
             if good
             and size != n
-            and not any(_faults(row, size * answers // n, printed.kind, whole=printed.whole) for row in good)
+            and not any(_faults(row, size * per_person, printed.kind, whole=printed.whole) for row in good)
         ),
     )
 
@@ -208,21 +213,29 @@ def _whole(row: PrintedRow, n: int) -> tuple[int, ...] | None:
     return next((counts for counts in sorted(chosen) if sum(counts) == n), None)
 
 
-def _recompute(rows: Sequence[PrintedRow], n: int) -> list[Recomputed]:
-    """The tests of each pair of rows that share their first label and have two answers."""
-    found = []
+def _recompute(rows: Sequence[PrintedRow], n: int, printed: PrintedTable) -> Iterator[Recomputed]:
+    """The tests of each two rows that share their first label: of two answers, or of means with SDs."""
     by_name: dict[str, list[PrintedRow]] = {}
     for row in rows:
-        if len(row.cells) == 2 and row.labels:
+        if row.labels:
             by_name.setdefault(row.labels[0], []).append(row)
     for name, pair in by_name.items():
-        counts = [_counts(row, n) for row in pair]
-        if len(pair) == 2 and counts[0] and counts[1]:
-            (k1, _), (k2, _) = counts[0], counts[1]
-            student = student_t(_answers(k1, n), _answers(k2, n), "greater")
-            both = ((k1, n - k1), (k2, n - k2))
-            found.append(Recomputed(name, both, student, fisher(k1, n, k2, n, "greater")))
-    return found
+        if len(pair) != 2:
+            continue
+        if printed.kind == "means" and all(row.sd is not None for row in pair):
+            yield Recomputed(name, None, student_t_of(*(_moments(row, n) for row in pair), "greater"), None)
+        elif printed.whole and all(len(row.cells) == 2 for row in pair):
+            counts = [_counts(row, n) for row in pair]
+            if counts[0] and counts[1]:
+                (k1, _), (k2, _) = counts[0], counts[1]
+                student = student_t(_answers(k1, n), _answers(k2, n), "greater")
+                both = ((k1, n - k1), (k2, n - k2))
+                yield Recomputed(name, both, student, fisher(k1, n, k2, n, "greater"))
+
+
+def _moments(row: PrintedRow, n: int) -> Moments:
+    size, sd = row.n or n, float(row.sd or 0)
+    return Moments(size, float(row.cells[0]), sd, sd / size**0.5)
 
 
 def _counts(row: PrintedRow, n: int) -> tuple[int, ...] | None:

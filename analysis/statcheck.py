@@ -18,6 +18,7 @@ from stimuli.errors import InputError
 
 MINUS = "−–-"
 NUMBER = rf"[{MINUS}]?\d*\.?\d+"
+EITHER = rf"[{MINUS}]?\d*[.,]?\d+"  # with a point or, as in German, a comma
 POWER = rf"(?:[eE][{MINUS}]?\d+|\s*[×x·]\s*10\s*\^?\s*\{{?[{MINUS}]\d+\}}?)?"  # 1.2e-5, 1.2 × 10^-5
 EFFECT = (
     rf"(?:d|dz|g|r|SE|b|B|β|η2|η²|ηp2|ηp²|ω2|ω²|V|W|M|SD)\s*=\s*{NUMBER}|\d\d\s*%\s*CI\s*[:=]?\s*\[[^\]]*\]"
@@ -25,12 +26,12 @@ EFFECT = (
 REPORTED = re.compile(
     rf"(?<![\w.])(?P<symbol>t|F|r|z|Z|H|[χΧX]\s?\^?\s?[2²]|chi2|chi-squared?)"
     rf"\s*(?:\(\s*(?:df\s*=\s*)?(?P<df>{NUMBER}(?:\s*,\s*{NUMBER})?)[^)]*\))?"
-    rf"\s*=\s*(?P<value>{NUMBER})(?![\d.])"
+    rf"\s*=\s*(?P<value>{EITHER})(?![\d.])"
     rf"(?:\s*[,;]\s*(?:{EFFECT}))*\s*[,;:]?\s*\(?\s*"
-    rf"p\s*(?P<sign>[<>=≤≥])\s*(?P<p>{NUMBER}{POWER})"
+    rf"p\s*(?P<sign>[<>=≤≥])\s*(?P<p>{EITHER}{POWER})"
 )
-ONE_SIDED = re.compile(r"one[-\s](?:sided|tailed)|directional", re.IGNORECASE)
-TWO_SIDED = re.compile(r"two[-\s](?:sided|tailed)", re.IGNORECASE)
+ONE_SIDED = re.compile(r"one[-\s](?:sided|tailed)|directional|einseitig", re.IGNORECASE)
+TWO_SIDED = re.compile(r"two[-\s](?:sided|tailed)|zweiseitig", re.IGNORECASE)
 OTHER_P = re.compile(rf"[\w-]*(?:adjusted|corrected)\s+p\s*[<>=≤≥]\s*{NUMBER}", re.IGNORECASE)
 CORRECTED = re.compile(r"adjust|correct|bonferroni|holm|hochberg|greenhouse|huynh", re.IGNORECASE)
 MARKUP = re.compile(
@@ -166,7 +167,7 @@ def _rest_of_sentence(text: str, start: int) -> str:
 
 
 def _decimal(text: str) -> Decimal:
-    return Decimal(re.sub(f"[{MINUS}]", "-", text.strip()))
+    return Decimal(re.sub(f"[{MINUS}]", "-", text.strip()).replace(",", "."))
 
 
 def _p_value(text: str) -> Decimal:

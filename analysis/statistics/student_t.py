@@ -7,7 +7,7 @@ from math import sqrt
 
 from numpy.typing import ArrayLike
 
-from analysis.statistics.samples import moments
+from analysis.statistics.samples import Moments, moments
 from analysis.statistics.t_test import Alternative, Contrast, Method, TTest, t_test
 
 METHOD = Method(
@@ -29,7 +29,11 @@ def student_t(first: ArrayLike, second: ArrayLike, alternative: Alternative = "t
     >>> student_t([1, 1, 1], [0, 0, 0]).reason
     'undefined: zero variance in both groups'
     """
-    a, b = moments(first), moments(second)
+    return student_t_of(moments(first), moments(second), alternative)
+
+
+def student_t_of(a: Moments, b: Moments, alternative: Alternative = "two-sided") -> TTest:
+    """The same from the number, mean and standard deviation of both groups."""
     n = (a.n, b.n)
     undefined = partial(TTest, METHOD, n=n, null=0.0, alternative=alternative)
     if a.mean is None or b.mean is None or a.n + b.n < 3:

@@ -33,6 +33,30 @@ def test_the_only_misprint_of_the_published_table_is_found(table_ii: Path) -> No
     assert follow.student.p == pytest.approx(0.013681101791085880)
 
 
+SHARES = """\
+high,0.94,0.06,0.79,0.21,1.00,0.00,1.00,0.00,0.94,0.06,0.56,0.44
+low,1.00,1.00,0.26,0.74,0.00,1.00,0.00,1.00,0.03,0.97,0.29,0.71
+"""
+NAMES = ("Arc", "Ant", "Time", "Exa", "Sec", "Follow")
+MERGED = f",{',,'.join(NAMES)},\nI_M \\ I_P{',↑,↓' * 6}\n"  # as a person copies the printed table
+REPEATED = f",{','.join(f'{name},{name}' for name in NAMES)}\nintended{',higher,lower' * 6}\n"
+ONE_ROW = f"intended,{','.join(f'{name} ↑,{name} ↓' for name in NAMES)}\n"
+UNDERSCORES = f"level,{','.join(f'P_{name}_higher,P_{name}_lower' for name in NAMES)}\n"
+
+
+@pytest.mark.parametrize("header", [MERGED, REPEATED, ONE_ROW, UNDERSCORES])
+def test_the_table_may_be_copied_as_it_is_printed(tmp_path: Path, table_ii: Path, header: str) -> None:
+    found, long = check(tmp_path, header + SHARES, N), verify(table_ii, n=N)
+    (fault,) = found.faults
+    line = header.count("\n") + 2
+    assert fault.line == line and fault.message == long.faults[0].message
+    assert fault.row.removeprefix("P_") == "Arc/low"
+    assert [one.student for one in found.recomputed] == [one.student for one in long.recomputed]
+    assert found.other_sizes == long.other_sizes
+    semicolons = (header + SHARES).replace(",", ";").replace("0.", "0,").replace("1.", "1,")
+    assert check(tmp_path, semicolons, N).faults == found.faults
+
+
 def test_no_other_number_of_participants_below_62_gives_the_published_table(table_ii: Path) -> None:
     assert verify(table_ii, n=N).other_sizes == (62, 66, 68)
 
@@ -93,6 +117,29 @@ def test_means_are_of_as_many_answers_as_there_are_items(tmp_path: Path) -> None
     assert [fault.line for fault in check(tmp_path, text, 34).faults] == [3]
     found = check(tmp_path, text, 34, items=50)
     assert found.faults == () and found.unchecked == ("sd",) and 35 in (found.other_sizes or ())
+
+
+# R: s <- sqrt((1.07^2 + .96^2) / 2); t <- (3.88 - 3.21) / (s * sqrt(2 / 34)); pt(t, 66, lower.tail = FALSE)
+@pytest.mark.parametrize(
+    "text",
+    [
+        "item,level,M,SD\njoy,high,3.88,1.07\njoy,low,3.21,0.96\n",
+        "item,level,M,SD,n\njoy,high,3.88,1.07,34\njoy,low,3.21,0.96,34\n",
+        "level,joy_M,joy_SD,fear_M,fear_SD\nhigh,3.88,1.07,3.88,1.07\nlow,3.21,0.96,3.21,0.96\n",
+    ],
+)
+def test_means_with_standard_deviations_lead_to_their_t(tmp_path: Path, text: str) -> None:
+    found = check(tmp_path, text, 34)
+    assert found.kind == "means" and not found.faults
+    student = found.recomputed[0].student
+    assert student.t == pytest.approx(2.7176689745467768) and student.df == 66
+    assert student.p == pytest.approx(0.0041943291546187953)
+    assert "joy: t(66) = 2.72, p = .004, one-sided" in str(found)
+
+
+def test_each_mean_is_of_the_participants_in_its_row(tmp_path: Path) -> None:
+    found = check(tmp_path, "item,M,SD,n\njoy,3.88,1.07,34\nfear,3.50,1.00,30\nshame,3.88,1.00,30\n", 34)
+    assert [fault.row for fault in found.faults] == ["shame"] and "of 30 answers" in found.faults[0].message
 
 
 @pytest.mark.parametrize(

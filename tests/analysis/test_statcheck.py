@@ -45,6 +45,9 @@ GOOD = [  # R: 2 * pt(-|t|, df), pf(F, df1, df2, lower.tail = FALSE), pchisq(…
     "Z = −1.96, p = .050",
     "z = 4.50, p = 6.8 × 10^-6",
     "z = 4.50, p = 6.8e-6",
+    "t(66) = 2,26, p = ,027",
+    "t(66) = −2,26; p = 0,014 (einseitig)",
+    "F(2, 30) = 3,32, p = ,050",
     "t(20) = 1.10, p > .05",
     "t(20) = 1.10, p ≥ .25",
     "after Bonferroni correction, t(33) = 2.40, p = .132",
@@ -54,6 +57,8 @@ GOOD = [  # R: 2 * pt(-|t|, df), pf(F, df1, df2, lower.tail = FALSE), pchisq(…
 BAD = [  # sentence, whether the decision changes
     ("t(66) = 2.26, p = .014", False),
     ("t(66) = 2.26, p = .040, two-sided", False),
+    ("t(66) = 2,26, p = ,040", False),
+    ("t(66) = 2,26, p = 0,014, zweiseitig", False),
     ("t(66) = 2.26, p = .027, one-sided", False),
     ("t(66) = 1.20, p = .01", True),
     ("t(66) = 1.20, p < .05", True),
