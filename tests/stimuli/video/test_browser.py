@@ -34,7 +34,7 @@ def test_a_browser_plays_a_clip_to_its_end(tmp_path: Path) -> None:
     (tmp_path / "page.html").write_text("<!doctype html><title>clip</title>")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"),
+            executable_path=shutil.which("chromium-headless-shell") or shutil.which("chromium"),
             args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
         )
         page = browser.new_page()

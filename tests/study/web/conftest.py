@@ -14,11 +14,12 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 from study.protocol import Protocol, load_protocol
 from study.storage import open_store
 from study.web.app import create_app
-from study.web.credentials import new_credentials
+from study.web.credentials import Passwords, new_credentials
 from study.web.server import running
 from study.web.site import Clip, Site
 
 PASSWORD = "correct horse"
+VIEWER = "battery staple"  # of whoever only looks on
 
 SMALL = """
 study: small
@@ -123,7 +124,7 @@ def clips(protocol: Protocol, video_folder: Path) -> dict[str, Clip]:
 @pytest.fixture
 def site(protocol: Protocol, clips: dict[str, Clip], tmp_path: Path) -> Iterator[Site]:
     store = open_store(f"sqlite:///{tmp_path}/data/study.db")
-    yield Site(protocol, store, clips, new_credentials(PASSWORD), "software 1")
+    yield Site(protocol, store, clips, new_credentials(Passwords(PASSWORD, VIEWER)), "software 1")
     store.close()
 
 
