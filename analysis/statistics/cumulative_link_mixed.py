@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
+from analysis.statistics.alike import alike
 from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
 
 FloatArray = NDArray[np.float64]
@@ -73,12 +74,11 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
 
 
 class _Model:
-    """The negative log-likelihood with each participant's effect integrated out at its mode."""
+    """The negative log-likelihood with participants integrated out at their modes, each kind once."""
 
     def __init__(self, y: IntArray, x: FloatArray, group: IntArray, levels: int) -> None:
-        order = np.argsort(group, kind="stable")
-        self.y, self.x, self.group, self.levels = y[order], x[order], group[order], levels
-        self.starts = np.unique(self.group, return_index=True)[1]  # of each participant's rows
+        self.alike = alike(group, x, y.astype(float))
+        self.y, self.x, self.levels = y[self.alike.rows], x[self.alike.rows], levels
 
     def negative(self, parameters: FloatArray) -> FloatArray:
         """−log L of thresholds, effect and log of the participants' SD, (k, levels + 1) → (k,)."""
@@ -86,7 +86,7 @@ class _Model:
         explained = parameters[:, [self.levels - 1]] * self.x  # (k, rows)
         upper, lower = cuts[:, self.y + 1] - explained, cuts[:, self.y] - explained
         sd = np.exp(parameters[:, [self.levels]])
-        u = np.zeros((len(parameters), self.starts.size))
+        u = np.zeros((len(parameters), self.alike.starts.size))
         for reach in REACHES:
             a, b = self._below(upper, sd, u), self._below(lower, sd, u)
             # with F' = F (1 − F): the log of F(upper) − F(lower) has slope −sd (1 − a − b) in u
@@ -96,16 +96,16 @@ class _Model:
                 break
             u = u - np.clip(slope / curvature, -reach, reach)
         value = self._sums(-np.log(np.maximum(a - b, 1e-300))) + u**2 / 2
-        found: FloatArray = (value + 0.5 * np.log(curvature)).sum(axis=1)
+        found: FloatArray = (value + 0.5 * np.log(curvature)) @ self.alike.participants
         return found
 
     def _below(self, cut: FloatArray, sd: FloatArray, u: FloatArray) -> FloatArray:
-        chance: FloatArray = expit(cut - sd * u[:, self.group])
+        chance: FloatArray = expit(cut - sd * u[:, self.alike.kind])
         return chance
 
     def _sums(self, values: FloatArray) -> FloatArray:
         """Of each participant's rows, (k, rows) → (k, participants)."""
-        return np.add.reduceat(values, self.starts, axis=1)
+        return np.add.reduceat(values, self.alike.starts, axis=1)
 
 
 def _cuts(parameters: FloatArray, levels: int) -> FloatArray:

@@ -9,8 +9,10 @@ from math import erfc, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analysis.statistics.alike import alike
+
 FloatArray = NDArray[np.float64]
-Cluster = tuple[FloatArray, FloatArray]  # design (m, 2) and answers (m,) of one participant
+Cluster = tuple[FloatArray, FloatArray, float]  # design (m, 2), answers (m,), and who gave them: how many
 FEW = 40  # participants below which robust errors are too small
 
 
@@ -49,9 +51,9 @@ def gee_logistic(
     if n == 0 or np.ptp(covariate) == 0:
         return GeeLogistic(n, count, None, None, None, "undefined: one condition only")
     design = np.column_stack([np.ones(n), covariate])
-    order = np.argsort(group, kind="stable")
-    edges = np.flatnonzero(np.diff(group[order])) + 1
-    clusters = list(zip(np.split(design[order], edges), np.split(y[order], edges), strict=True))
+    same = alike(group, covariate, y)
+    kinds = np.split(same.rows, same.starts[1:])
+    clusters = [(design[own], y[own], times) for own, times in zip(kinds, same.participants, strict=True)]
     reduce = count < FEW if bias_reduced is None else bias_reduced
     try:
         beta, correlation = _estimate(clusters, design, y)
@@ -70,13 +72,14 @@ def _estimate(clusters: list[Cluster], design: FloatArray, y: FloatArray) -> tup
     beta, correlation = np.zeros(2), 0.0
     for _ in range(200):
         slope = sum(
-            (weighted.T @ error for _, weighted, error in _terms(clusters, beta, correlation)), np.zeros(2)
+            (times * weighted.T @ error for _, weighted, error, times in _terms(clusters, beta, correlation)),
+            np.zeros(2),
         )
         step = np.linalg.solve(_bread(clusters, beta, correlation), slope)
         before = correlation
         beta = beta + step
         correlation = _correlation(clusters, design, y, beta)
-        largest = max(answers.size for _, answers in clusters)
+        largest = max(answers.size for _, answers, _ in clusters)
         if correlation * max(1, largest - 1) < 1e-9 - 1 or correlation > 1 - 1e-9:
             raise np.linalg.LinAlgError("the working correlation is singular")
         if np.abs(step).max() < 1e-12 and abs(correlation - before) < 1e-12:
@@ -87,11 +90,11 @@ def _estimate(clusters: list[Cluster], design: FloatArray, y: FloatArray) -> tup
 def _correlation(clusters: list[Cluster], design: FloatArray, y: FloatArray, beta: FloatArray) -> float:
     """Mean product of two standardised residuals of a participant, over their mean square."""
     scale = float((_standardised(design, y, beta) ** 2).mean())
-    products, pairs = 0.0, 0
-    for part, answers in clusters:
+    products, pairs = 0.0, 0.0
+    for part, answers, times in clusters:
         residuals = _standardised(part, answers, beta)
-        products += (residuals.sum() ** 2 - (residuals**2).sum()) / 2
-        pairs += residuals.size * (residuals.size - 1) // 2
+        products += times * (residuals.sum() ** 2 - (residuals**2).sum()) / 2
+        pairs += times * (residuals.size * (residuals.size - 1) // 2)
     return products / pairs / scale if pairs else 0.0
 
 
@@ -108,21 +111,24 @@ def _mean(design: FloatArray, beta: FloatArray) -> FloatArray:
 
 def _terms(
     clusters: list[Cluster], beta: FloatArray, correlation: float
-) -> Iterator[tuple[FloatArray, FloatArray, FloatArray]]:
-    """Per participant the derivative D (m, 2) of the means, V⁻¹ D (m, 2), and the errors (m,)."""
-    for design, y in clusters:
+) -> Iterator[tuple[FloatArray, FloatArray, FloatArray, float]]:
+    """Derivative D (m, 2) of the means, V⁻¹ D (m, 2), errors (m,), and how many participants have them."""
+    for design, y, times in clusters:
         mean = _mean(design, beta)
         variance = mean * (1 - mean)
         derivative = variance[:, None] * design
         standardised = derivative / np.sqrt(variance)[:, None]
         shared = correlation / (1 + (y.size - 1) * correlation) * standardised.sum(axis=0)
         weighted = (standardised - shared) / (1 - correlation) / np.sqrt(variance)[:, None]
-        yield derivative, weighted, y - mean
+        yield derivative, weighted, y - mean, times
 
 
 def _bread(clusters: list[Cluster], beta: FloatArray, correlation: float) -> FloatArray:
     return sum(
-        (derivative.T @ weighted for derivative, weighted, _ in _terms(clusters, beta, correlation)),
+        (
+            times * derivative.T @ weighted
+            for derivative, weighted, _, times in _terms(clusters, beta, correlation)
+        ),
         np.zeros((2, 2)),
     )
 
@@ -131,8 +137,8 @@ def _robust_se(clusters: list[Cluster], beta: FloatArray, correlation: float, *,
     """Sandwich standard error of the effect; bias-reduced: without each participant's pull on the fit."""
     bread = np.linalg.inv(_bread(clusters, beta, correlation))
     filling = np.zeros((2, 2))
-    for derivative, weighted, error in _terms(clusters, beta, correlation):
+    for derivative, weighted, error, times in _terms(clusters, beta, correlation):
         leverage = derivative @ bread @ weighted.T
         own = np.linalg.solve(np.eye(error.size) - leverage, error) if bias_reduced else error
-        filling += np.outer(weighted.T @ own, weighted.T @ own)
+        filling += times * np.outer(weighted.T @ own, weighted.T @ own)
     return float(np.sqrt((bread @ filling @ bread)[1, 1]))

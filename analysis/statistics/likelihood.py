@@ -59,9 +59,11 @@ def standard_error(negative: Negative, at: FloatArray, *, of: int, log_sd: int) 
 def derivatives(negative: Negative, at: FloatArray, step: float = 1e-4) -> tuple[FloatArray, FloatArray]:
     """First and second derivatives, (m,) and (m, m), by central differences."""
     steps = np.eye(at.size) * step
-    i, j = np.tril_indices(at.size)
-    corners = np.concatenate([at + a * steps[i] + b * steps[j] for a in (1, -1) for b in (1, -1)])
-    both, first, second, neither = negative(corners).reshape(4, -1)
-    bend = np.empty((at.size, at.size))
-    bend[i, j] = bend[j, i] = (both - first - second + neither) / (4 * step**2)
-    return (both - neither)[i == j] / (4 * step), bend
+    i, j = np.tril_indices(at.size, -1)
+    pairs = steps[i] + steps[j]
+    found = negative(np.concatenate([[at], at + steps, at - steps, at + pairs, at - pairs]))
+    here, up, down, both, neither = np.split(found, np.cumsum([1, at.size, at.size, i.size]))
+    bend = np.diag((up - 2 * here + down) / step**2)
+    bend[i, j] = (both - up[i] - up[j] + 2 * here - down[i] - down[j] + neither) / (2 * step**2)
+    bend[j, i] = bend[i, j]
+    return (up - down) / (2 * step), bend

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
+from analysis.statistics.alike import alike
 from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
 
 FloatArray = NDArray[np.float64]
@@ -83,12 +84,11 @@ def _both_ways(y: FloatArray, x: FloatArray, group: IntArray) -> bool:
 
 
 class _Model:
-    """The negative log-likelihood with participants integrated out around their modes."""
+    """The negative log-likelihood with participants integrated out around their modes, each kind once."""
 
     def __init__(self, y: FloatArray, x: FloatArray, group: IntArray) -> None:
-        order = np.argsort(group, kind="stable")
-        self.y, self.x, self.group = y[order], x[order], group[order]
-        self.starts = np.unique(self.group, return_index=True)[1]  # of each participant's rows
+        self.alike = alike(group, x, y)
+        self.y, self.x = y[self.alike.rows], x[self.alike.rows]
         self.nodes, weights = np.polynomial.hermite.hermgauss(NODES)
         self.log_weights = np.log(weights) + self.nodes**2
 
@@ -100,19 +100,19 @@ class _Model:
         u, curvature = self._modes(fixed, sd)
         spread = np.sqrt(2 / curvature)  # (k, groups)
         at = u[..., None] + spread[..., None] * self.nodes  # (k, groups, nodes), in units of the SD
-        logits = fixed[..., None] + sd[..., None] * at[:, self.group]
+        logits = fixed[..., None] + sd[..., None] * at[:, self.alike.kind]
         log_joint = self._sums(-np.logaddexp(0, (1 - 2 * self.y)[:, None] * logits))
         log_joint += self.log_weights - at**2 / 2
         peak = log_joint.max(axis=2)
         likelihood = peak + np.log(np.exp(log_joint - peak[..., None]).sum(axis=2))
-        found: FloatArray = -(likelihood + np.log(spread) - np.log(2 * np.pi) / 2).sum(axis=1)
+        found: FloatArray = -(likelihood + np.log(spread) - np.log(2 * np.pi) / 2) @ self.alike.participants
         return found
 
     def _modes(self, fixed: FloatArray, sd: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The likeliest effect of each participant, in SDs, and the curvature there, (k, groups)."""
-        u = np.zeros((len(fixed), self.starts.size))
+        u = np.zeros((len(fixed), self.alike.starts.size))
         for reach in REACHES:
-            chance = expit(fixed + sd * u[:, self.group])
+            chance = expit(fixed + sd * u[:, self.alike.kind])
             pull = sd * self._sums(self.y - chance) - u
             curvature = sd**2 * self._sums(chance * (1 - chance)) + 1
             if np.max(np.abs(pull / curvature)) < 1e-10:
@@ -122,4 +122,4 @@ class _Model:
 
     def _sums(self, values: FloatArray) -> FloatArray:
         """Of each participant's rows, (k, rows, …) → (k, groups, …)."""
-        return np.add.reduceat(values, self.starts, axis=1)
+        return np.add.reduceat(values, self.alike.starts, axis=1)

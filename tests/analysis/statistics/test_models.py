@@ -52,6 +52,19 @@ def test_the_cumulative_link_mixed_model_agrees_with_r(ordinal: dict[str, np.nda
     assert fit.participant_sd == pytest.approx(1.3278458786438521, abs=1e-3)
 
 
+def test_twice_the_participants_give_the_same_effect_and_twice_the_log_likelihood(
+    ordinal: dict[str, np.ndarray],
+) -> None:
+    x, people = ordinal["condition"], ordinal["participant"]
+    again = np.tile(x, 2), np.concatenate([people, people + people.max() + 1])
+    chosen = (ordinal["rating"] > 3).astype(float)
+    for fit, answers in ((cumulative_link_mixed, ordinal["rating"]), (logistic_mixed, chosen)):
+        once, twice = fit(answers, x, people), fit(np.tile(answers, 2), *again)
+        assert twice.participants == 2 * once.participants
+        assert twice.effect == pytest.approx(once.effect, abs=1e-5)
+        assert twice.log_likelihood == pytest.approx(2 * once.log_likelihood, abs=1e-6)
+
+
 def test_the_mixed_model_does_not_care_about_the_order_of_rows(ordinal: dict[str, np.ndarray]) -> None:
     shuffled = np.random.default_rng(0).permutation(ordinal["rating"].size)
     columns = [ordinal[name] for name in ("rating", "condition", "participant")]
