@@ -90,7 +90,7 @@ def head(half_axes: Sequence[float]) -> dict[str, Mesh]:
 
     def on_the_skull(points: FloatArray) -> FloatArray:
         """The unit disc laid over the front as a mask, its rim sunk into the skull."""
-        side, up = 0.76 * points[:, 1], 0.38 * points[:, 2] - 0.02
+        side, up = 0.86 * points[:, 1], 0.44 * points[:, 2] - 0.02
         out = np.where(np.hypot(points[:, 1], points[:, 2]) > 0.99, 0.99, 1.008)
         towards = np.stack([np.cos(up) * np.cos(side), np.cos(up) * np.sin(side), np.sin(up)], axis=-1)
         over: FloatArray = out[:, None] * towards * half_axes + lifted

@@ -244,7 +244,7 @@ def head(eyes: Mapping[str, float]) -> dict[str, Mesh]:
         "trim": joined(
             both(ear.moved(left, ALONG_Y)),
             both(cover.moved(left, ALONG_Y)),
-            *(HEAD.pad((x, 0), (0.0165, 0.030), 0.0011, 16) for x in (-0.038, 0.0, 0.038)),
+            *(HEAD.pad((x, 0), (0.0165, 0.030), 0.0007, 20) for x in (-0.038, 0.0, 0.038)),
         ),
     }
 

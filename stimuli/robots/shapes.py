@@ -123,13 +123,14 @@ class Loft:
         return _tube(grid) + _fan(grid[-1]) + _fan(grid[0, ::-1])
 
     def pad(self, centre: tuple[float, float], size: tuple[float, float], lift: float, segments: int) -> Mesh:
-        """A rounded plate of half sizes (x, y) lying on the top, its middle lifted off it."""
+        """A rounded plate of half sizes (x, y) lying on the top, lifted off it, its steep rim let into it."""
         angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
         c, s = np.cos(angle), np.sin(angle)
         outline = np.stack([np.sign(c) * np.sqrt(np.abs(c)), np.sign(s) * np.sqrt(np.abs(s))], axis=-1) * size
-        radii = np.array([1.0, 0.9, 0.5, 0.02])
+        radii = np.array([1.0, 0.985, 0.94, 0.5, 0.0])
+        above = lift * np.array([-5.0, 0.6, 1.0, 1.0, 1.0])  # deeper than the shell's facets lie
         flat = np.asarray(centre) + radii[:, None, None] * outline  # (radii, segments, 2)
-        height = self._top(flat) + lift * (1 - 2 * radii**6)[:, None]
+        height = self._top(flat) + above[:, None]
         return _tube(np.concatenate([flat, height[..., None]], axis=-1))
 
     def _top(self, xy: FloatArray) -> FloatArray:
