@@ -31,7 +31,7 @@ from study.questions.scale import Scale
 from study.sessions import Session
 from study.storage import open_store
 from study.web.app import create_app
-from study.web.credentials import new_credentials, new_password
+from study.web.credentials import new_credentials, new_passwords
 from study.web.participant import questions_of, steps_of
 from study.web.server import SOFTWARE, running
 from study.web.site import Clip, Site, hashes
@@ -85,7 +85,7 @@ def rehearse(
     shown = {stimulus: _unrendered(stimulus) for stimulus in protocol.stimuli} | dict(clips or {})
     with tempfile.TemporaryDirectory() as scratch:
         store = open_store(f"sqlite:///{scratch}/rehearsal.db")
-        site = Site(protocol, store, shown, new_credentials(new_password()), SOFTWARE, kind="simulated")
+        site = Site(protocol, store, shown, new_credentials(new_passwords()), SOFTWARE, kind="simulated")
         with running(create_app(site)) as address, ThreadPoolExecutor(AT_ONCE) as crowd:
             visits = [crowd.submit(take_part, site, address, number, shares) for number in range(n)]
             for done, visit in enumerate(visits, start=1):

@@ -100,8 +100,11 @@ def _serve(
         console.print(f"[bold]{protocol.title}[/] is open{' as a test' if test else ''}. Ctrl-C closes it.")
         console.print(f"  participants   {links.participant}")
         console.print(f"  experimenter   {links.experimenter}")
-        if links.password:
-            console.print(f"  password       {links.password}   (made now and shown once; write it down)")
+        if links.passwords:
+            console.print(
+                f"  password       {links.passwords.edit}   (made now and shown once; write it down)"
+            )
+            console.print(f"  to look on     {links.passwords.view}   (changes nothing, shows no contacts)")
 
     serve_until_stopped(
         protocol,

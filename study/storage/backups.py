@@ -19,6 +19,7 @@ from stimuli.errors import InputError
 from study.storage.sqlite import held
 
 KEPT = 48
+AGAIN_S = 60.0
 SUFFIX = ".db"
 logger = logging.getLogger(__name__)
 
@@ -99,14 +100,16 @@ def copy_database(source: Path, target: Path) -> None:
 class BackupTimer:
     """Calls for a backup every so often, in a thread of its own, and once more when it is stopped.
 
-    One that fails is said, and the next is tried all the same: there may be room again by then.
+    One that fails is logged, kept as `fault` until the next that succeeds, and tried again soon: there may be
+    room again by then.
     """
 
-    def __init__(self, make: Callable[[], object], *, every_s: float) -> None:
+    def __init__(self, make: Callable[[], object], *, every_s: float, again_s: float = AGAIN_S) -> None:
         self._make = make
-        self._every_s = every_s
+        self._every_s, self._again_s = every_s, again_s
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="backups", daemon=True)
+        self.fault: str | None = None  # why the latest failed
 
     def __enter__(self) -> BackupTimer:
         self._thread.start()
@@ -118,7 +121,7 @@ class BackupTimer:
         self._try()
 
     def _run(self) -> None:
-        while not self._stopped.wait(self._every_s):
+        while not self._stopped.wait(self._again_s if self.fault else self._every_s):
             self._try()
 
     def _try(self) -> None:
@@ -126,3 +129,6 @@ class BackupTimer:
             self._make()
         except (OSError, sqlite3.Error) as err:
             logger.error("No backup could be made: %s", err)
+            self.fault = str(err) or type(err).__name__
+        else:
+            self.fault = None

@@ -7,10 +7,9 @@ vacuums, by itself or as its administrator orders.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from functools import partial
+from contextlib import contextmanager
 
-from sqlalchemy import URL, Engine, create_engine, text
+from sqlalchemy import URL, Connection, Engine, create_engine, event, text
 from sqlalchemy.exc import OperationalError
 
 from stimuli.errors import InputError
@@ -34,20 +33,62 @@ def open_database(url: URL) -> Database:
     except ModuleNotFoundError as err:
         message = "PostgreSQL needs psycopg: pip install 'expressive-motion-study[postgresql]'"
         raise InputError(message) from err
-    return Database(engine, held=partial(_held, engine), purge=lambda: None)
+    lock = Lock(engine)
+
+    @event.listens_for(engine, "begin")
+    def keep(connection: Connection) -> None:
+        if connection.get_execution_options().get("writes", False):
+            lock.keep()
+
+    return Database(engine, held=lock.held, purge=lambda: None)
 
 
-@contextmanager
-def _held(engine: Engine) -> Iterator[None]:
-    """Hold the database for as long as the block lasts, and the connection does."""
-    with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as db:
-        name = {"name": f"study: {holder()}", "lock": LOCK}
-        db.execute(text("SELECT set_config('application_name', :name, false)"), name)
-        if not db.execute(text("SELECT pg_try_advisory_lock(:lock)"), name).scalar():
-            by = db.execute(HOLDER).scalar()
-            raise InputError(f"{engine.url}: is being served by {by}. Stop that one first.")
+class Lock:
+    """An advisory lock, which lasts as long as its connection: lost when PostgreSQL restarts.
+
+    It is looked after before every transaction that writes, and taken again where it was lost.
+    """
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._wanted = False
+        self._connection: Connection | None = None  # by which it is held
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Hold the database for as long as the block lasts."""
+        self._take()
+        self._wanted = True
         try:
             yield
         finally:
-            with suppress(OperationalError):  # with the connection the lock is gone
-                db.execute(text("SELECT pg_advisory_unlock(:lock)"), name)
+            self._wanted = False
+            self._let_go()
+
+    def keep(self) -> None:
+        """See to it that what is to be held is; InputError says who has taken it meanwhile."""
+        if not self._wanted:
+            return
+        try:
+            if self._connection is not None:
+                self._connection.execute(text("SELECT 1"))
+                return
+        except OperationalError:
+            self._let_go()
+        self._take()
+
+    def _take(self) -> None:
+        connection = self._engine.connect().execution_options(isolation_level="AUTOCOMMIT")
+        name = {"name": f"study: {holder()}", "lock": LOCK}
+        connection.execute(text("SELECT set_config('application_name', :name, false)"), name)
+        if not connection.execute(text("SELECT pg_try_advisory_lock(:lock)"), name).scalar():
+            by = connection.execute(HOLDER).scalar()
+            connection.close()
+            raise InputError(f"{self._engine.url}: is being served by {by}. Stop that one first.")
+        self._connection = connection
+
+    def _let_go(self) -> None:
+        connection, self._connection = self._connection, None
+        if connection is not None:
+            connection.invalidate()  # with the connection the lock is gone
+            connection.close()

@@ -10,6 +10,7 @@ from fastapi.responses import FileResponse, JSONResponse, Response
 from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
 from starlette.exceptions import HTTPException
 
+from stimuli.errors import InputError
 from study.web import entry, experimenter, participant
 from study.web.language import load_language
 from study.web.limits import Limits
@@ -111,9 +112,10 @@ def create_app(site: Site) -> FastAPI:
         return await say_what_went_wrong(request, HTTPException(400, "cannot be stored"))
 
     @app.exception_handler(DBAPIError)
-    async def say_that_nothing_can_be_stored(request: Request, fault: DBAPIError) -> Response:
-        """The disk is full, or the database away: nothing is acknowledged, and browsers send it again."""
-        logger.error("Nothing can be stored: %s", fault.orig)
+    @app.exception_handler(InputError)
+    async def say_that_nothing_can_be_stored(request: Request, fault: DBAPIError | InputError) -> Response:
+        """The disk is full, the database away or served by another: browsers send it again."""
+        logger.error("Nothing can be stored: %s", fault.orig if isinstance(fault, DBAPIError) else fault)
         site.store.forget()
         unavailable = HTTPException(503, "cannot be stored now", {"Retry-After": str(TRY_AGAIN_S)})
         return await say_what_went_wrong(request, unavailable)

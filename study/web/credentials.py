@@ -1,4 +1,4 @@
-"""The experimenter's password and the key that signs their cookie, both kept in the study's data folder."""
+"""The experimenter's passwords and the key that signs their cookies, both kept in the study's data folder."""
 
 from __future__ import annotations
 
@@ -9,11 +9,24 @@ import secrets
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from pathlib import Path
+from typing import Literal, cast, get_args
 
 from study.participants import LETTERS
 
+Role = Literal["edit", "view"]
+"""Who edits may do everything; who views sees the running study and takes its answers, and neither changes
+anything nor learns who anybody is."""
+
 SCRYPT = {"n": 2**14, "r": 8, "p": 1}  # 16 MB and some 50 ms per try
 LOGIN_LASTS = timedelta(hours=12)
+
+
+@dataclass(frozen=True)
+class Passwords:
+    """What is shown once, when they are made."""
+
+    edit: str
+    view: str
 
 
 @dataclass(frozen=True)
@@ -23,22 +36,27 @@ class Credentials:
     salt: bytes
     password_hash: bytes
     key: bytes  # signs cookies; new on every change of password
+    viewer_hash: bytes = b""  # of the password that only lets look on; none where it is empty
 
-    def is_password(self, password: str) -> bool:
-        """Whether this is the password, in a time that does not depend on where it differs."""
-        return hmac.compare_digest(_scrypt(password, self.salt), self.password_hash)
+    def role_of(self, password: str) -> Role | None:
+        """What a password allows, in a time that does not depend on where it differs."""
+        given = _scrypt(password, self.salt)
+        may_edit = hmac.compare_digest(given, self.password_hash)
+        may_view = hmac.compare_digest(given, self.viewer_hash)
+        return "edit" if may_edit else "view" if may_view else None
 
-    def cookie(self, now: datetime) -> str:
-        """A cookie for somebody who has just given the password: when it ends, a nonce, and both signed."""
-        content = f"{int((now + LOGIN_LASTS).timestamp())}.{secrets.token_urlsafe(16)}"
+    def cookie(self, role: Role, now: datetime) -> str:
+        """A cookie for somebody who has just given a password: role, end and a nonce, signed together."""
+        content = f"{role}.{int((now + LOGIN_LASTS).timestamp())}.{secrets.token_urlsafe(16)}"
         return f"{content}.{self._sign('cookie', content)}"
 
-    def is_cookie(self, cookie: str, now: datetime) -> bool:
-        """Whether a cookie was signed here and has not ended."""
+    def role_in(self, cookie: str, now: datetime) -> Role | None:
+        """What a cookie allows that was signed here and has not ended."""
         content, _, signature = cookie.rpartition(".")
         if not hmac.compare_digest(signature.encode(), self._sign("cookie", content).encode()):
-            return False
-        return int(content.partition(".")[0]) > now.timestamp()
+            return None
+        role, ends, _ = content.split(".")
+        return cast("Role", role) if role in get_args(Role) and int(ends) > now.timestamp() else None
 
     def form_token(self, cookie: str) -> str:
         """What every form of the experimenter sends back, so that no other site can send it for them."""
@@ -69,26 +87,35 @@ def _scrypt(password: str, salt: bytes) -> bytes:
     return hashlib.scrypt(password.encode(), salt=salt, **SCRYPT)
 
 
-def new_credentials(password: str) -> Credentials:
-    """Credentials for a password."""
+def new_credentials(passwords: Passwords) -> Credentials:
+    """Credentials for passwords."""
     salt = secrets.token_bytes(16)
-    return Credentials(salt, _scrypt(password, salt), secrets.token_bytes(32))
+    return Credentials(
+        salt,
+        password_hash=_scrypt(passwords.edit, salt),
+        key=secrets.token_bytes(32),
+        viewer_hash=_scrypt(passwords.view, salt),
+    )
 
 
-def new_password() -> str:
-    """Draw a password of 79 random bits that can be read out and typed."""
+def new_passwords() -> Passwords:
+    """Draw passwords of 79 random bits that can be read out and typed."""
+    return Passwords(edit=_password(), view=_password())
+
+
+def _password() -> str:
     return "-".join("".join(secrets.choice(LETTERS) for _ in range(4)) for _ in range(4))
 
 
-def open_credentials(folder: Path) -> tuple[Credentials, str | None]:
-    """The credentials kept in a folder, and at the first start, when they are made, the password."""
+def open_credentials(folder: Path) -> tuple[Credentials, Passwords | None]:
+    """The credentials kept in a folder, and at the first start, when they are made, the passwords."""
     file = folder / "experimenter.json"
     if file.is_file():
         kept = json.loads(file.read_text())
         return Credentials(**{name: bytes.fromhex(value) for name, value in kept.items()}), None
-    password = new_password()
-    made = new_credentials(password)
+    passwords = new_passwords()
+    made = new_credentials(passwords)
     folder.mkdir(parents=True, exist_ok=True)
     file.touch(mode=0o600)
     file.write_text(json.dumps({name: value.hex() for name, value in vars(made).items()}, indent=2))
-    return made, password
+    return made, passwords

@@ -23,7 +23,7 @@ from study.export import codebook, responses_csv, responses_json
 from study.participants import Contact, new_participant, new_personal_code, token_of_code
 from study.storage.backups import copy_database
 from study.storage.store import Phase
-from study.web.credentials import LOGIN_LASTS
+from study.web.credentials import LOGIN_LASTS, Role
 from study.web.language import load_language
 from study.web.limits import count_wrong_guess, require_guesses_left
 from study.web.overview import TROUBLES, may_see_report, overview
@@ -39,20 +39,30 @@ router = APIRouter(prefix="/experimenter")
 _one_try_at_a_time = threading.Lock()  # passwords are slow to check; guessing in parallel gains nothing
 
 
-def cookie_of(request: Request) -> str | None:
+def role_of(request: Request) -> Role | None:
+    """What somebody logged in may do."""
+    site = site_of(request)
+    return site.credentials.role_in(request.cookies.get(COOKIE, ""), site.clock())
+
+
+def require_login(request: Request) -> str:
     """The cookie of somebody logged in."""
-    site, cookie = site_of(request), request.cookies.get(COOKIE, "")
-    return cookie if site.credentials.is_cookie(cookie, site.clock()) else None
-
-
-def require_login(request: Request, form_token: str | None = None) -> str:
-    """The cookie of somebody logged in; whoever changes something must also have got the form from us."""
-    cookie = cookie_of(request)
-    if cookie is None:
+    if role_of(request) is None:
         raise HTTPException(401)
-    if form_token is not None and not site_of(request).credentials.is_form_token(form_token, cookie):
+    return request.cookies[COOKIE]
+
+
+def require_own_form(request: Request, form_token: str) -> None:
+    """Whoever sends something must be logged in and have got the form from us."""
+    if not site_of(request).credentials.is_form_token(form_token, require_login(request)):
         raise HTTPException(403)
-    return cookie
+
+
+def require_editor(request: Request) -> None:
+    """Whoever only looks on may not do this."""
+    require_login(request)
+    if role_of(request) != "edit":
+        raise HTTPException(403)
 
 
 # In and out
@@ -62,7 +72,7 @@ def require_login(request: Request, form_token: str | None = None) -> str:
 def experimenter(request: Request) -> Response:
     """The page itself, or the way in."""
     language = language_of(request)
-    if cookie_of(request) is None:
+    if role_of(request) is None:
         return speaking(render(request, "login.html", language=language, fault=None), language)
     return _page(request, "experimenter.html")
 
@@ -73,8 +83,8 @@ def login(request: Request, password: Annotated[str, Form(max_length=200)]) -> R
     site, language = site_of(request), language_of(request)
     require_guesses_left(request)
     with _one_try_at_a_time:
-        right = site.credentials.is_password(password)
-    if not right:
+        role = site.credentials.role_of(password)
+    if role is None:
         count_wrong_guess(request)
         say = load_language(language).text
         fault = say("This is not the password.")
@@ -82,7 +92,7 @@ def login(request: Request, password: Annotated[str, Form(max_length=200)]) -> R
     answer = to(request, "experimenter")
     answer.set_cookie(
         COOKIE,
-        site.credentials.cookie(site.clock()),
+        site.credentials.cookie(role, site.clock()),
         max_age=int(LOGIN_LASTS.total_seconds()),
         httponly=True,
         samesite="strict",
@@ -95,7 +105,7 @@ def login(request: Request, password: Annotated[str, Form(max_length=200)]) -> R
 @router.post("/logout", name="logout")
 def logout(request: Request, form_token: Annotated[str, Form()]) -> Response:
     """Take the cookie back."""
-    require_login(request, form_token)
+    require_own_form(request, form_token)
     answer: RedirectResponse = to(request, "experimenter")
     answer.delete_cookie(COOKIE, path="/experimenter")
     return answer
@@ -126,7 +136,8 @@ def enter_phase(
     request: Request, form_token: Annotated[str, Form()], phase: Annotated[Phase, Form()]
 ) -> Response:
     """Pause, resume or close the study."""
-    require_login(request, form_token)
+    require_editor(request)
+    require_own_form(request, form_token)
     site = site_of(request)
     site.store.enter_phase(phase, now=site.clock())
     return to(request, "experimenter")
@@ -141,7 +152,8 @@ def make_links(
     test: Annotated[bool, Form()] = False,
 ) -> Response:
     """Invite participants: a sheet with links, codes and QR codes, shown this once. Only hashes are kept."""
-    require_login(request, form_token)
+    require_editor(request)
+    require_own_form(request, form_token)
     site = site_of(request)
     invitations = []
     for _ in range(count):
@@ -194,7 +206,7 @@ def download_json(request: Request) -> Response:
 @router.get("/study.db", name="backup")
 def download_backup(request: Request) -> Response:
     """A copy of the whole database; it holds the participants' contacts too."""
-    require_login(request)
+    require_editor(request)
     database = site_of(request).store.file
     if database is None:
         raise HTTPException(404)
@@ -238,6 +250,7 @@ def _page(request: Request, template: str) -> Response:
         template,
         language=language_of(request),
         live=Markup(_live_part(request)),
+        may_edit=role_of(request) == "edit",
         phase=site.store.phase,
         most_links=MOST_LINKS,
         has_backup=site.store.file is not None,
@@ -256,4 +269,11 @@ def _live_part(request: Request) -> str:
         here = when.astimezone()
         return f"{format_skeleton('MMMd', here, locale=locale)}, {format_time(here, 'short', locale=locale)}"
 
-    return fragment("overview.html", language=language, seen=seen, troubles=TROUBLES, moment=moment)
+    return fragment(
+        "overview.html",
+        language=language,
+        seen=seen,
+        troubles=TROUBLES,
+        moment=moment,
+        may_edit=role_of(request) == "edit",
+    )

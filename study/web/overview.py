@@ -56,6 +56,7 @@ class Overview:
     balances: tuple[Balance, ...]  # over completed sessions
     hours: tuple[int, ...]  # pages answered in each of the last hours, the present one last
     troubles: tuple[Event, ...]  # the latest
+    backup_fault: str | None  # why the latest backup failed
 
     @property
     def counts(self) -> Mapping[str, int]:
@@ -93,6 +94,7 @@ def overview(site: Site) -> Overview:
         balances=tuple(balance(site.protocol, completed)) if completed else (),
         hours=_hours(site.store.answered_since(now - timedelta(hours=HOURS), site.kind), now),
         troubles=tuple(site.store.events(TROUBLES, most=8)),
+        backup_fault=site.backup_fault(),
     )
 
 

@@ -312,6 +312,8 @@ PAGE_TEXTS = {
     "missing": "Please answer every question.",
     "offline": "There is no connection at the moment. Your answer is kept on this device and will be sent as "
     "soon as possible. Please leave this page open.",
+    "blocked": "Something between this device and the study refuses your answer. It is kept on this device "
+    "and sent again until it arrives. Please leave this page open and tell the experimenter.",
     "last": "Watched as often as is possible here",
     "failed": "The video could not be played. Please try again; if it keeps failing, tell the experimenter.",
     "refused": "Your answer could not be stored. Please reload this page.",

@@ -9,7 +9,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
+from contextlib import closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -24,7 +24,7 @@ from study.storage import Store, open_store
 from study.storage.backups import BackupTimer, back_up
 from study.versions import earlier_versions, keep_version, refuse_undeclared
 from study.web.app import create_app
-from study.web.credentials import open_credentials
+from study.web.credentials import Passwords, open_credentials
 from study.web.site import Door, Site, clips_of, utc_now
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Links:
 
     participant: str
     experimenter: str
-    password: str | None  # only at the first start, when it was made
+    passwords: Passwords | None  # only at the first start, when they were made
 
 
 def serve(
@@ -77,17 +77,26 @@ def serve(
         )
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # what stops services ends it like Ctrl-C
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
-    with closing(store), store.held(), _backed_up(store, data_folder / "backups"):
-        credentials, password = open_credentials(data_folder)
+    backups = _backups(store, data_folder / "backups")
+    with closing(store), store.held(), backups or nullcontext():
+        credentials, passwords = open_credentials(data_folder)
         refuse_undeclared(protocol, store.protocol_hashes())
         clips = clips_of(manifest, clips_folder)
         keep_version(protocol, manifest, data_folder)
         site = Site(
-            protocol, store, clips, credentials, SOFTWARE, kind=kind, door=door, analyse=analyse
+            protocol,
+            store,
+            clips,
+            credentials,
+            SOFTWARE,
+            kind=kind,
+            door=door,
+            analyse=analyse,
+            backup_fault=lambda: backups.fault if backups else None,
         ).with_earlier(earlier_versions(protocol, data_folder), clips_folder)
         server, listener = _server(create_app(site), host, port)
         address = f"http://{_reached_by(host)}:{listener.getsockname()[1]}"
-        links = Links(f"{address}/", f"{address}/experimenter", password)
+        links = Links(f"{address}/", f"{address}/experimenter", passwords)
         threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
         with suppress(KeyboardInterrupt):  # uvicorn finishes what is under way and raises the signal again
             server.run(sockets=[listener])
@@ -103,11 +112,11 @@ def _reached_by(host: str) -> str:
     return "127.0.0.1"
 
 
-def _backed_up(store: Store, folder: Path) -> AbstractContextManager[object]:
-    """Backups of a SQLite file for as long as the block lasts; other databases have means of their own."""
+def _backups(store: Store, folder: Path) -> BackupTimer | None:
+    """Backups of a SQLite file, now and then; other databases have means of their own."""
     database = store.file
     if database is None:
-        return nullcontext()
+        return None
     return BackupTimer(lambda: back_up(database, folder, now=utc_now()), every_s=BACKUP_EVERY_S)
 
 

@@ -72,6 +72,7 @@ class Site:
     kind: Kind = "participant"  # of whoever enters without a link
     door: Door = "open"
     analyse: Callable[[Path, Path], object] | None = None  # responses.csv and a folder → report.html in it
+    backup_fault: Callable[[], str | None] = field(default=lambda: None)  # why the latest backup failed
     clock: Callable[[], datetime] = field(default=utc_now)
     earlier: Mapping[str, Site] = field(default_factory=dict)  # as it was before amendments, by protocol hash
 

@@ -8,7 +8,7 @@ export class Outbox {
   #address;
   #busy = null;
 
-  /** `onstate(state)` hears "sending", "waiting" (for the network) and "empty". */
+  /** `onstate(state)` hears "sending", "waiting" (for the network), "blocked" (on the way there) and "empty". */
   constructor(participant, address, onstate) {
     this.#key = `outbox:${participant}`;
     this.#address = address;
@@ -39,10 +39,10 @@ export class Outbox {
     let word = { ok: true };
     for (let wait = FIRST_WAIT_MS; !this.empty; ) {
       const [submission] = this.#waiting;
-      this.onstate(wait === FIRST_WAIT_MS ? "sending" : "waiting");
+      if (wait === FIRST_WAIT_MS) this.onstate("sending");
       word = await this.#post(submission);
       if (word.again) {
-        this.onstate("waiting");
+        this.onstate(word.blocked ? "blocked" : "waiting");
         await this.#sleep(wait);
         wait = Math.min(2 * wait, LONGEST_WAIT_MS);
       } else {
@@ -54,6 +54,7 @@ export class Outbox {
     return word;
   }
 
+  /** What is not JSON is not from the study but from a proxy or a login page before it: no word on the answer. */
   async #post(submission) {
     try {
       const response = await fetch(this.#address, {
@@ -61,9 +62,10 @@ export class Outbox {
         headers: { "Content-Type": "application/json" },
         body: JSON.stringify(submission),
       });
-      const again = response.status >= 500 || response.status === 429 || response.status === 408;
-      const body = again ? {} : await response.json();
-      return { ok: response.ok, status: response.status, reason: body.reason, again };
+      const body = await response.json().catch(() => null);
+      const busy = response.status >= 500 || response.status === 429 || response.status === 408;
+      const blocked = body === null && !busy;
+      return { ok: response.ok, status: response.status, reason: body?.reason, again: busy || blocked, blocked };
     } catch {
       return { ok: false, again: true };
     }

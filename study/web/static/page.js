@@ -19,6 +19,7 @@ document.getElementById("late").remove();
 
 const outbox = new Outbox(page.participant, page.answer_url, (state) => {
   if (state === "waiting") say(page.texts.offline);
+  if (state === "blocked") say(page.texts.blocked, true);
   if (state === "empty") say("");
 });
 

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -135,3 +136,29 @@ def test_a_timer_backs_up_and_once_more_at_the_end() -> None:
     with BackupTimer(make, every_s=0.01):
         assert twice.wait(timeout=10)
     assert len(calls) >= 3
+
+
+def test_a_backup_that_fails_is_said_and_tried_again_soon(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    store = open_store(f"sqlite:///{tmp_path}/study.db")
+    folder, made, failed = tmp_path / "backups", threading.Event(), threading.Event()
+    folder.write_text("in the way")
+
+    def make() -> None:
+        try:
+            back_up(tmp_path / "study.db", folder, now=NOON)
+            made.set()
+        finally:
+            failed.set()
+
+    with BackupTimer(make, every_s=0.01, again_s=0.2) as timer:
+        assert failed.wait(timeout=10)
+        while timer.fault is None:
+            time.sleep(0.01)
+        assert "File exists" in timer.fault
+        folder.unlink()
+        assert made.wait(timeout=10)
+    assert timer.fault is None
+    assert "No backup could be made: " in caplog.text
+    store.close()

@@ -20,7 +20,7 @@ from study.web.overview import may_see_report, overview
 from study.web.server import running
 from study.web.site import Site
 
-PASSWORD = "correct horse"  # as in the fixture `site`
+PASSWORD, VIEWER = "correct horse", "battery staple"  # as in the fixture `site`
 
 
 @pytest.fixture
@@ -192,3 +192,31 @@ def test_invitations_are_cards_with_pictures_of_their_links(
         for answer in (httpx.get(link), httpx.post(f"{experimenter.base_url}/code", data={"code": code})):
             assert answer.headers["location"] == "/study"
     assert [row.contact.note for row in rehearsed.store.progress()[:3]] == ["Tuesday"] * 3
+
+
+def test_who_looks_on_sees_the_study_and_takes_the_answers_but_changes_nothing(site: Site) -> None:
+    failing = replace(site, backup_fault=lambda: "No space left on device")
+    with running(create_app(failing)) as address:
+        editor, viewer = (httpx.Client(base_url=address, follow_redirects=True) for _ in range(2))
+        with editor, viewer:
+            editor.post("/experimenter/login", data={"password": PASSWORD})
+            invitation = {"form_token": form_token(editor), "count": "1", "note": "Ada of room 3"}
+            assert editor.post("/experimenter/links", data=invitation).status_code == 200
+            viewer.post("/experimenter/login", data={"password": VIEWER})
+            seen, whole = viewer.get("/experimenter").text, editor.get("/experimenter").text
+            for page in (seen, whole):
+                assert "The latest backup failed (No space left on device)." in page
+            assert re.findall(r'action="/experimenter/(\w+)"', seen) == ["logout"]
+            assert ("Ada of room 3" in whole, "Ada of room 3" in seen) == (True, False)
+            assert viewer.get("/experimenter/responses.csv").status_code == 200
+            own = form_token(viewer)
+            for refused in (
+                viewer.get("/experimenter/study.db"),
+                viewer.post("/experimenter/links", data=invitation | {"form_token": own}),
+                viewer.post("/experimenter/phase", data={"form_token": own, "phase": "closed"}),
+            ):
+                assert refused.status_code == 403
+            promoted = viewer.cookies["experimenter"].replace("view", "edit", 1)
+            forged = httpx.get(f"{address}/experimenter/responses.csv", cookies={"experimenter": promoted})
+            assert forged.status_code == 401, "a role is signed"
+    assert failing.store.phase == "open"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from study.web.site import Site
 
@@ -36,6 +36,24 @@ def test_a_server_that_fails_for_a_while_is_asked_again(visit, page: Page, site:
     )
     visit.press_continue()
     expect(page.locator("#notice")).to_contain_text("There is no connection")
+    expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    assert len(stored(site)) == 1
+
+
+def test_what_refuses_answers_on_their_way_is_said_and_loses_none(visit, page: Page, site: Site) -> None:
+    visit.begin()
+    faults = [(200, "Log in to the hotel's network"), (413, "Too large for this proxy")]
+
+    def in_between(route: Route) -> None:
+        if faults:
+            status, body = faults.pop()
+            route.fulfill(status=status, content_type="text/html", body=body)
+        else:
+            route.continue_()
+
+    page.context.route("**/study/answers", in_between)
+    visit.press_continue()
+    expect(page.locator("#notice")).to_contain_text("Something between this device and the study refuses")
     expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
     assert len(stored(site)) == 1
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import resource
 from dataclasses import replace
 from uuid import uuid4
@@ -9,6 +10,7 @@ from uuid import uuid4
 import httpx
 import pytest
 
+from stimuli.errors import InputError
 from study.storage import open_store
 from study.web.app import create_app
 from study.web.server import running
@@ -68,11 +70,12 @@ def test_on_a_full_disk_no_answer_is_acknowledged_and_none_is_lost(site: Site) -
     assert len(stored(site)) == 2
 
 
-def test_a_postgresql_that_is_away_for_a_while_is_found_again(
+def test_a_postgresql_that_is_away_for_a_while_is_found_and_held_again(
     postgresql, site: Site, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
 ) -> None:
     submission = sent("demographics")
-    store = open_store(postgresql.new_database())
+    url = postgresql.new_database()
+    store, other = open_store(url), open_store(url)
     away = replace(site, store=store)
     with (
         store.held(),
@@ -85,9 +88,14 @@ def test_a_postgresql_that_is_away_for_a_while_is_found_again(
             see_it_refused(client, submission)
         finally:
             postgresql.start()
+        with other.held():  # another server was quicker
+            see_it_refused(client, submission)
         see_it_taken(client, submission)
+        with pytest.raises(InputError, match=f"served by study: process {os.getpid()}"), other.held():
+            pass
     assert len(stored(away)) == 2
     store.close()
+    other.close()
     assert "Nothing can be stored: " in caplog.text
     assert str(submission["id"]) not in caplog.text + capfd.readouterr().err
     assert "Traceback" not in caplog.text

@@ -1,4 +1,8 @@
-"""Exported datasets keep to the rules of Psych-DS 1.5 (github.com/psych-ds/psych-DS, schema_model)."""
+"""Exported datasets keep to the rules of Psych-DS 1.5 (github.com/psych-ds/psych-DS, schema_model).
+
+The official validator (psychds-validator 1.5.0) finds such a folder compatible and misses only what is
+optional; as it needs Deno, its rules are checked here one by one.
+"""
 
 from __future__ import annotations
 

@@ -70,14 +70,17 @@ def test_tokens_have_128_bits_and_are_nowhere_on_the_disk(site: Site) -> None:
 
 
 def test_the_password_is_kept_as_a_hash_for_our_eyes_only(tmp_path: Path) -> None:
-    credentials, password = open_credentials(tmp_path)
+    credentials, passwords = open_credentials(tmp_path)
     file = tmp_path / "experimenter.json"
-    assert password
-    assert password not in file.read_text()
+    assert passwords
+    assert passwords.edit not in file.read_text()
+    assert passwords.view not in file.read_text()
     assert stat.S_IMODE(file.stat().st_mode) == 0o600
     again, shown = open_credentials(tmp_path)
     assert (again, shown) == (credentials, None)
-    assert again.is_password(password)
+    assert again.role_of(passwords.edit) == "edit"
+    assert again.role_of(passwords.view) == "view"
+    assert replace(again, viewer_hash=b"").role_of("") is None
 
 
 def test_behind_a_proxy_cookies_are_secure_and_allowances_are_each_visitor_s(site: Site) -> None:

@@ -31,7 +31,7 @@ from study.protocol import load_protocol
 from study.web import serve
 
 def announce(links):
-    print(links.participant, links.password, flush=True)
+    print(links.participant, links.passwords and links.passwords.edit, flush=True)
 
 folder = Path(sys.argv[1])
 clips = Path(sys.argv[2])
