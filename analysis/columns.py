@@ -21,6 +21,7 @@ from analysis.fields import Fields, Places, read_fields, read_header
 WORD = 8  # bytes compared at once
 KEEP = np.array([(1 << 8 * length) - 1 for length in range(WORD + 1)], dtype=np.uint64)  # of the first bytes
 NO_WORD = (1 << 8 * WORD) - 1  # larger than any: UTF-8 has no byte 255
+SCATTER = np.uint64(0x9E3779B97F4A7C15)  # 2⁶⁴ over the golden ratio: Knuth (1998), TAOCP 3, section 6.4
 MOMENT = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d")
 
 Words = NDArray[np.uint64]
@@ -97,9 +98,9 @@ class _Gathered:
         """Add the rows of a block from the row `below` on."""
         starts, ends = fields.starts[below:, self.place], fields.ends[below:, self.place]
         first = _first_of_runs(fields.text, starts, ends - starts)
-        lengths = np.diff(first, append=starts.size)
         codes = self._codes(fields.text, starts[first], ends[first])
-        self.blocks.append(np.repeat(codes.astype(np.min_scalar_type(len(self.values))), lengths))
+        codes = codes.astype(np.min_scalar_type(len(self.values)))
+        self.blocks.append(np.repeat(codes, np.diff(first, append=starts.size)))
 
     def _codes(self, text: bytes, starts: Places, ends: Places) -> Codes:
         """The code of each value, (values,); new values get the next ones, in the order of rows."""
@@ -162,20 +163,44 @@ class _Spellings:
 
 
 class _Numbered:
-    """Numbers for words, in the order of their coming."""
+    """Numbers for words, in the order of their coming, found in a hash table.
+
+    Words that hash alike share a slot; all but one of them are searched for among the few without a slot.
+    """
 
     def __init__(self) -> None:
-        self.words: Words = np.array([NO_WORD], dtype=np.uint64)  # sorted
-        self.of_word = np.array([-1], dtype=np.int32)
+        self._arrange(np.array([NO_WORD], dtype=np.uint64))
 
     def numbers(self, words: Words) -> Numbers:
         """The number of each word, (rows,)."""
-        place = np.searchsorted(self.words, words)
-        unknown = self.words[place] != words
-        if unknown.any():
-            new = np.unique(words[unknown])
-            at = np.searchsorted(self.words, new)
-            numbers = np.arange(new.size, dtype=np.int32) + self.words.size - 1
-            self.words, self.of_word = np.insert(self.words, at, new), np.insert(self.of_word, at, numbers)
-            place = np.searchsorted(self.words, words)
-        return self.of_word[place]
+        found = self._known(words)
+        if found.min(initial=0) < 0:
+            new = np.unique(words[found < 0])
+            self._arrange(np.append(self.words, new))
+            found = self._known(words)
+        return found
+
+    def _arrange(self, words: Words) -> None:
+        """Give each word a slot, where `words` are in the order of their numbers."""
+        self.words = words
+        self.shift = np.uint64(8 * WORD - 3 - words.size.bit_length())  # at least eight slots for each
+        self.slots = np.zeros(1 << 3 + words.size.bit_length(), dtype=np.int32)
+        slot = self._slot(words)
+        self.slots[slot] = np.arange(words.size)
+        without = np.flatnonzero(self.words[self.slots[slot]] != words)
+        self.without = without[np.argsort(words[without])]
+
+    def _slot(self, words: Words) -> Words:
+        slot: Words = (words * SCATTER) >> self.shift
+        return slot
+
+    def _known(self, words: Words) -> Numbers:
+        """The number of each word, (rows,); −1 for new ones."""
+        found: Numbers = self.slots[self._slot(words)]
+        other = np.flatnonzero(self.words[found] != words)
+        if other.size:
+            known = np.append(self.words[self.without], np.uint64(NO_WORD))
+            place = np.searchsorted(known, words[other])
+            numbers = np.append(self.without, -1)[place]
+            found[other] = np.where(known[place] == words[other], numbers, -1)
+        return found

@@ -98,20 +98,20 @@ class _Block:
     def __init__(self, path: Path, line: int, text: bytes, mark: int) -> None:
         self.path, self.line, self.mark = path, line, mark  # line: where the text starts in the file
         body: Bytes = np.frombuffer(text, dtype=np.uint8)
-        stops = (body == mark) | (body == NEWLINE)
-        quotes = body == QUOTE
-        self.quoted = bool(quotes.any())
+        stops = body == mark
+        stops |= body == NEWLINE
+        self.quoted = QUOTE in text
         if self.quoted:
-            stops &= ~np.logical_xor.accumulate(quotes)
+            stops &= ~np.logical_xor.accumulate(body == QUOTE)
         ends = np.flatnonzero(stops)
         last = body[ends] == NEWLINE
         if not last.any():
             raise _unended(path, line)
-        kept = int(np.flatnonzero(last)[-1]) + 1
+        kept = last.size - int(np.argmax(last[::-1]))
         size = int(ends[kept - 1]) + 1
         self.ends, self.last = ends[:kept], last[:kept]  # of values; and whether of rows too
         self.text, self.rest, self.body = text[:size], text[size:], body[:size]
-        self.lines = int(np.count_nonzero(self.body == NEWLINE))
+        self.lines = int(np.count_nonzero(self.body == NEWLINE if self.quoted else self.last))
 
     def fields(self, columns: int) -> Fields:
         """Its rows, each with as many values as the header has."""

@@ -17,6 +17,7 @@ from analysis.naming import MISSING, Naming
 
 REQUIRED = ("participant", "stimulus", "item", "response")
 OPTIONAL = ("part", "trial", "rt_ms", "session")
+PADDING = re.compile(r"^0+(?=\d)|(?<=\d)[.,]0+$")  # zeros that a number may be written with or without
 
 
 class Rows:
@@ -94,7 +95,7 @@ class Rows:
         """Refuse the file if 1, 01, 1.0 and "1 " stand beside each other: one participant, or several?"""
         spelled: dict[str, str] = {}
         for name in self.participants:
-            plain = re.sub(r"^0+(?=\d)|(?<=\d)[.,]0+$", "", name.strip())
+            plain = PADDING.sub("", name.strip())
             first = spelled.setdefault(plain, name)
             if first != name:
                 self.refuse_if(

@@ -76,3 +76,12 @@ def test_what_has_two_readings_is_refused_at_its_line(tmp_path: Path, text: str,
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ResponsesError, match=message):
         read_columns(path, ["a"])
+
+
+def test_thousands_of_values_are_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fields, "BLOCK", 5000)
+    people = [f"P{person * 7919 % 4001}" for person in range(4001)] * 2
+    (tmp_path / "r.csv").write_text("\n".join(["participant,item", *(f"{p},joy" for p in people)]))
+    column = read_columns(tmp_path / "r.csv", ["participant"])["participant"]
+    assert [column.values[code] for code in column.codes] == people
+    assert len(column.values) == 4001
