@@ -70,6 +70,22 @@ shuffled <- function(m, target) {  # P(sum of the target), each row's ratings in
   }
   sum(chance[(sum(m[, target] - apply(m, 1, min)) + 1):length(chance)])
 }
+mancl <- function(g) {  # standard errors of a geeglm after Mancl & DeRouen (2001), by their matrices
+  terms <- lapply(split(seq_along(g$y), g$id), function(k) {
+    mean <- fitted(g)[k]
+    within <- matrix(g$geese$alpha, length(k), length(k))
+    diag(within) <- 1
+    v <- sqrt(mean * (1 - mean))
+    list(D = v^2 * model.matrix(g)[k, , drop = FALSE], W = solve(within * outer(v, v)), e = g$y[k] - mean)
+  })
+  total <- function(f) Reduce(`+`, lapply(terms, f))
+  bread <- solve(total(function(i) t(i$D) %*% i$W %*% i$D))
+  filling <- total(function(i) {
+    own <- solve(diag(length(i$e)) - i$D %*% bread %*% t(i$D) %*% i$W, i$e)
+    tcrossprod(t(i$D) %*% i$W %*% own)
+  })
+  sqrt(diag(bread %*% filling %*% bread))
+}
 bca <- function(x) {  # on resamples that can be drawn elsewhere too
   u <- sin(outer(1:999 * 78.233, seq_along(x) * 12.9898, "+")) * 43758.5453
   average <- function(x, i) mean(x[i])

@@ -270,6 +270,9 @@ REFERENCES = [
               "unlist(summary(g)$coefficients['x', c(1, 2, 4)])",
               lambda d: [(g := gee_logistic(*d.long("high", "low"), bias_reduced=False)).effect, g.se, g.p],
               1e-8),
+    Reference("g <- geeglm(y ~ x, binomial, long(d, c('high', 'low'), 1:0), id = p, corstr = 'exchangeable', "
+              "control = geese.control(epsilon = 1e-13, maxit = 100)); mancl(g)[['x']]",
+              lambda d: [gee_logistic(*d.long("high", "low"), bias_reduced=True).se], 1e-8),
     Reference("g <- glmer(y ~ x + (1 | p), long(d, c('high', 'low'), 1:0), binomial, nAGQ = 25); "
               "c(fixef(g), sqrt(vcov(g)[2, 2]), sqrt(VarCorr(g)$p[1]))",
               lambda d: [(m := logistic_mixed(*d.long("high", "low"))).intercept, m.effect, m.se,
