@@ -34,8 +34,8 @@ def gee_logistic(
     """Generalised estimating equations, exchangeable working correlation, rows (n,) of 0/1 answers.
 
     Below 40 participants errors are bias-reduced (Mancl & DeRouen 2001, Biometrics 57) unless told otherwise.
-    Agrees with R `geepack::geeglm(corstr = "exchangeable")`; bias-reduced, with their matrices as R works them
-    out from its fit. Liang & Zeger (1986), Biometrika 73.
+    Agrees with R `geepack::geeglm(corstr = "exchangeable")`; bias-reduced, with their matrices as R works
+    them out from its fit. Liang & Zeger (1986), Biometrika 73.
 
     >>> chosen, high = [1, 0, 1, 1, 0, 0, 1, 0], [1, 0, 1, 0, 1, 0, 1, 0]
     >>> people = ["a", "a", "b", "b", "c", "c", "d", "d"]
