@@ -7,8 +7,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from pydantic import BaseModel
-
 from stimuli.ends import EASE_S, rests_at_ends
 from stimuli.errors import InputError
 from stimuli.gestures import read_gesture
@@ -19,13 +17,12 @@ from stimuli.trajectory import Trajectory
 from study.balance import balance
 from study.orders import cycle, draw_plan
 from study.power import power
-from study.protocol import Problem, Protocol
+from study.protocol import Protocol
 from study.questions.scale import Scale
-from study.specs import specs
-from study.text import Text
+from study.specs import ABSENT, specs
+from study.untranslated import untranslated
 from study.web.language import interface_languages
-from study.words import count, in_brief, tested
-from study.written import Location
+from study.words import count, in_brief, listed, tested
 
 Verdict = Literal["good", "mind", "wrong"]
 WIDTH = 110  # of the screen
@@ -86,7 +83,7 @@ def _wrapped(message: str, width: int) -> list[str]:
 
 def check(protocol: Protocol) -> Report:
     """Look at everything that can be known before data are gathered."""
-    looked_at = (_structure, _motions, _texts, _orders, _stop, _hypotheses)
+    looked_at = (_structure, _unseen, _motions, _texts, _orders, _stop, _hypotheses)
     findings = tuple(finding for look in looked_at for finding in look(protocol))
     return Report(protocol.study, protocol.sha256, findings)
 
@@ -101,6 +98,21 @@ def _structure(protocol: Protocol) -> Iterator[Finding]:
         f"{count(len(protocol.parts), 'part')}; a participant sees {count(videos, 'video')} in about "
         f"{count(minutes, 'minute')}",
     )
+
+
+def _unseen(protocol: Protocol) -> Iterator[Finding]:
+    """What is declared but never shown: no stimulus has it, and no modulation extends it."""
+    seen = protocol.stimuli.values()
+    written = protocol.source.value.get("modulations", {})
+    used = {stimulus.name for stimulus in seen} | {entry.get("extends") for entry in written.values()}
+    unseen = {
+        "gestures": set(protocol.gestures) - {stimulus.gesture for stimulus in seen},
+        "modulations": {name for name in written if not used & {name, *protocol.members(name)}},
+        "levels": set(protocol.levels) - {stimulus.principle for stimulus in seen},
+    }
+    for field, names in unseen.items():
+        if names:
+            yield Finding("mind", field, f"declared but shown in no part: {', '.join(sorted(names))}")
 
 
 def _alone(error: InputError, value: str) -> str:
@@ -128,7 +140,8 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
                 protocol.folder / gesture.file, robots[protocol.robot_of(name)], protocol.learning.dt_s
             )
         except InputError as error:
-            broken.append(str(protocol.source.problem(("gestures", name), _alone(error, f"{gesture.file}:"))))
+            there = (protocol.folder / gesture.file).is_file()
+            broken.append(str(error if there else protocol.source.problem(("gestures", name), ABSENT)))
     if broken:
         yield Finding("wrong", "gestures", "\n".join(broken))
         return
@@ -162,15 +175,10 @@ def _eased(gestures: Mapping[str, Trajectory], protocol: Protocol) -> Iterator[F
 
 def _texts(protocol: Protocol) -> Iterator[Finding]:
     """Every text is there in every language."""
-    problems = [
-        _lacking(protocol, location, lacking)
-        for location, text in _all_texts(protocol)
-        if (lacking := text.lacks(protocol.languages))
-    ]
-    if problems:
+    if problems := untranslated(protocol):
         yield Finding("wrong", "texts", "\n".join(map(str, problems)))
     else:
-        yield Finding("good", "texts", f"complete in {' and '.join(protocol.languages)}")
+        yield Finding("good", "texts", f"complete in {listed(protocol.languages)}")
     for language in protocol.languages:
         if language not in interface_languages():
             yield Finding(
@@ -181,40 +189,6 @@ def _texts(protocol: Protocol) -> Iterator[Finding]:
             for language in sorted(set(question.unpublished) & set(protocol.languages)):
                 unpublished = "is our own translation, unpublished and not validated"
                 yield Finding("mind", "texts", f"{question.set} in {language} {unpublished}")
-
-
-def _lacking(protocol: Protocol, location: Location, languages: tuple[str, ...]) -> Problem:
-    return protocol.source.problem(location, f"is missing in {' and '.join(languages)}", name=True)
-
-
-def _all_texts(protocol: Protocol) -> Iterator[tuple[Location, Text]]:
-    yield ("title",), protocol.title
-    if protocol.video.description:
-        yield ("video", "description"), protocol.video.description
-    for name, text in protocol.texts:
-        yield ("texts", name), text
-    for at, question in enumerate(protocol.demographics):
-        yield from _texts_in(question, ("demographics", at, question.kind))
-    for part_id, part in protocol.parts.items():
-        yield ("parts", part_id, "title"), part.title
-        yield ("parts", part_id, "intro"), part.intro
-        for at, question in enumerate(part.questions):
-            yield from _texts_in(question, ("parts", part_id, "ask", at, question.kind))
-
-
-def _texts_in(value: Any, location: Location) -> Iterator[tuple[Location, Text]]:
-    """All texts inside a question, wherever its kind keeps them."""
-    if isinstance(value, Text):
-        yield location, value
-    elif isinstance(value, BaseModel):
-        for name, field in type(value).model_fields.items():
-            yield from _texts_in(getattr(value, name), (*location, field.alias or name))
-    elif isinstance(value, dict):
-        for key, inner in value.items():
-            yield from _texts_in(inner, (*location, key))
-    elif isinstance(value, tuple):
-        for at, inner in enumerate(value):
-            yield from _texts_in(inner, (*location, at))
 
 
 def _orders(protocol: Protocol) -> Iterator[Finding]:
@@ -233,7 +207,7 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
     elif planned % whole:
         fewer, more = planned - planned % whole, planned - planned % whole + whole
         others = f"{fewer} or {more}" if fewer else str(more)
-        yield Finding("mind", "orders", f"{planned} participants leave the orders uneven; {others} would not")
+        yield Finding("mind", "orders", f"uneven with {planned} participants; even with {others}")
     else:
         yield Finding(
             "good", "orders", f"{planned} participants fill them evenly, as does every multiple of {whole}"

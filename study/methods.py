@@ -4,10 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from importlib.metadata import version
 
-from stimuli.principles import PRINCIPLES
-from study.protocol import Part, Protocol
-from study.words import asked, count, exclusions, listed, ordered, shown_if, stated, tested
+from stimuli.principles import PRINCIPLES, Modulation
+from study.power import power
+from study.protocol import BESIDE, PRACTICE, Part, Protocol
+from study.words import (
+    asked,
+    beside_the_test,
+    count,
+    exclusions,
+    listed,
+    ordered,
+    parameters,
+    replays,
+    shown_if,
+    stated,
+    tested,
+)
+
+SERVICES = {"prolific": "Prolific", "sona": "SONA", "mturk": "Amazon Mechanical Turk"}
 
 ESCAPED = {character: f"\\{character}" for character in "&%$#_{}"} | {
     "\\": r"\textbackslash{}",
@@ -56,15 +72,45 @@ def _stimuli(protocol: Protocol) -> Iterator[str]:
     yield f"for the robot {listed(protocol.robots)}. Each was learned as a Dynamic Movement Primitive"
     yield f"({protocol.learning.n_weights} basis functions, gain {protocol.learning.alpha:g})"
     yield f"and modulated by {listed(principles)}," if principles else "and replayed,"
-    yield f"which gave {count(len(protocol.stimuli), 'stimulus', 'stimuli')}."
+    practised = len(protocol.stimuli) - sum(s.id not in {PRACTICE, BESIDE} for s in protocol.stimuli.values())
+    yield f"which gave {count(len(protocol.stimuli), 'stimulus', 'stimuli')}" + (
+        f", {count(practised, 'of them', 'of them')} to practise on." if practised else "."
+    )
+    yield from _intensities(protocol)
     width, height = video.pixels
     yield f"They were rendered with MuJoCo at {width} by {height} pixels and {video.fps} frames per second,"
     yield "without sound."
 
 
+def _intensities(protocol: Protocol) -> Iterator[str]:
+    """What every principle was set to, modulation by modulation and level by level."""
+    said: dict[str, Modulation] = {}
+    for stimulus in protocol.stimuli.values():
+        if stimulus.modulation.principles:
+            said.setdefault(stimulus.name or f"{stimulus.principle} {stimulus.level}", stimulus.modulation)
+    if said:
+        yield "Intensities (angles in rad, times in s; all else neutral) were:"
+        yield "; ".join(f"*{name}*: {_set(modulation)}" for name, modulation in said.items()) + "."
+
+
+def _set(modulation: Modulation) -> str:
+    """The principles and their parameters, as far as they are not the defaults."""
+    words = []
+    for principle in modulation.principles:
+        values = principle.model_dump(mode="json", exclude_defaults=True)
+        told = values.pop("intensity", None) is not None or not values
+        strength = f" {principle.intensity:g}" if told else ""
+        words.append(f"{principle.title}{strength}" + (f" ({parameters(values)})" if values else ""))
+    return ", ".join(words)
+
+
 def _participants(protocol: Protocol) -> Iterator[str]:
-    yield f"We planned for {count(protocol.participants.planned, 'participant')}; [number] took part"
-    yield "([number] female, [number] male, aged [range] years), recruited by [means]."
+    yield f"We planned for {count(protocol.participants.planned, 'participant')}."
+    yield from (f"For {found.hypothesis}, {found} {found.level}." for found in power(protocol))
+    yield "Data were gathered until as many had completed the study. [Number] took part"
+    service = protocol.participants.recruitment.service
+    means = f"through {SERVICES[service]}" if service else "by [means]"
+    yield f"([number] female, [number] male, aged [range] years), recruited {means}."
     if protocol.ethics:
         yield f"The study was approved by [committee] ({protocol.ethics})."
     if left_out := exclusions(protocol.participants.exclude):
@@ -77,7 +123,8 @@ def _procedure(protocol: Protocol) -> Iterator[str]:
     yield f"{count(minutes, 'minute')}, in {count(len(protocol.parts), 'part')}" + (
         ", after a page to practise on." if protocol.practice else "."
     )
-    yield "The questions of a page opened when its videos had been played in full."
+    yield "The questions of a page opened when its videos had been played in full;"
+    yield f"a video {replays(protocol.video, 'could')}."
     for part in protocol.parts.values():
         yield from _part(part)
 
@@ -92,7 +139,8 @@ def _part(part: Part) -> Iterator[str]:
         yield f"{here} {judged} was judged."
     else:
         after = ", each after its reference" if part.references else ""
-        yield f"{here} {judged} were judged{after}; their order was {ordered(part.order)}."
+        order = "they came" if part.order.blocks else "their order was"
+        yield f"{here} {judged} were judged{after}; {order} {ordered(part.order)}."
 
 
 def _measures(protocol: Protocol) -> Iterator[str]:
@@ -106,5 +154,9 @@ def _analysis(protocol: Protocol) -> Iterator[str]:
         yield f"{name}: {hypothesis.text or stated(protocol, hypothesis)}"
         mirrored = f", the mirror image of {hypothesis.mirrors}" if hypothesis.mirrors else ""
         yield f"Its test was: {tested(protocol, hypothesis)}{mirrored}."
+        if not mirrored and (note := beside_the_test(protocol, hypothesis)):
+            yield f"{note}."
     yield f"The level of significance was {protocol.analysis.alpha:g}."
     yield f"The protocol's SHA-256 is {protocol.sha256[:16]}; orders follow from seed {protocol.seed}."
+    yield "Stimuli, sessions and analysis were made with expressive-motion-study"
+    yield f"{version('expressive-motion-study')}."

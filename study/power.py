@@ -35,12 +35,26 @@ class Power:
     effect: Effect
     smallest: float | None  # effect found with a power of 80 %; None where none can be
     needed: dict[float, int | None]  # assumed effect → participants for a power of 80 %
+    basis: str = ""  # what the effect is of and by which test, where that is not the hypothesis's own
 
     def __str__(self) -> str:
         if self.smallest is None:
             return f"{self.n} participants cannot reach a power of {AIM:.0%} at alpha {self.alpha:.3g}"
         found = f"d ≥ {self.smallest:.2f}" if self.effect == "d" else f"a share ≥ {self.smallest:.2f}"
         return f"{self.n} participants find {found} with a power of {AIM:.0%}"
+
+    @property
+    def level(self) -> str:
+        """At which level of significance, and by which test."""
+        strictest = f"in the strictest of {self.tests} tests, " if self.tests > 1 else ""
+        return f"{strictest}at alpha = {self.alpha:.4g}{self.basis}"
+
+    @property
+    def planning(self) -> str:
+        """How many participants other effects need."""
+        name = "d" if self.effect == "d" else "a share"
+        needs = (f"{size:g} needs {n or f'over {MAX_PARTICIPANTS}'}" for size, n in self.needed.items())
+        return f"{name} of {', '.join(needs)}"
 
 
 def power(protocol: Protocol) -> list[Power]:
@@ -63,7 +77,8 @@ def t_power(n: int, d: float, alpha: float, *, two_sided: bool = False, groups: 
     if not two_sided:
         return float(stats.nct.sf(stats.t.isf(alpha, df), df, shift))
     critical = stats.t.isf(alpha / 2, df)
-    return float(stats.nct.sf(critical, df, shift) + stats.nct.cdf(-critical, df, shift))
+    other_tail = np.nan_to_num(stats.nct.cdf(-critical, df, shift))  # SciPy: nan where it vanishes
+    return float(stats.nct.sf(critical, df, shift) + other_tail)
 
 
 def mcnemar_power(n: int, first: float, second: float, alpha: float, *, two_sided: bool = False) -> float:
@@ -129,6 +144,13 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
 
     largest, assumed = (5.0, (0.2, 0.5, 0.8)) if effect == "d" else (1.0, (0.6, 0.7, 0.8))
     least = 0.0 if effect == "d" else 0.5
+    basis = ""
+    if effect == "share" and part.pairs is None:
+        basis = (
+            f", by McNemar's exact test, if so many answer “{hypothesis.outcome}” to one and not to the other"
+        )
+    elif effect == "d" and hypothesis.test in {"wilcoxon", "binomial"}:
+        basis = ", reckoned as for a t-test"
     return Power(
         hypothesis=name,
         n=n,
@@ -137,6 +159,7 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
         effect=effect,
         smallest=smallest_effect(lambda size: at(n, size), least, largest) if n // split > 1 else None,
         needed={size: participants_needed(partial(at, size=size)) for size in assumed},
+        basis=basis,
     )
 
 

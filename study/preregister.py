@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from collections.abc import Iterable, Iterator
+from importlib.metadata import version
 
 from study.orders import ALGORITHM, cycle
 from study.power import power
@@ -11,10 +11,13 @@ from study.protocol import Part, Protocol
 from study.specs import specs
 from study.words import (
     asked,
+    beside_the_test,
     count,
     exclusions,
     listed,
     ordered,
+    parameters,
+    replays,
     shown_if,
     stated,
     stop_rule,
@@ -36,6 +39,7 @@ def _head(protocol: Protocol) -> Iterator[str]:
     if protocol.ethics:
         yield f"- Ethics approval: {protocol.ethics}"
     yield f"- Protocol: SHA-256 `{protocol.sha256}` (content of the protocol and the files it names)"
+    yield f"- Software: expressive-motion-study {version('expressive-motion-study')}"
     for change in protocol.amendments:
         yield f"- Amended on {change.date} (SHA-256 `{change.replaces[:12]}` before): {change.reason}"
     yield "- To be registered before the first participant takes part."
@@ -56,6 +60,9 @@ def _design(protocol: Protocol) -> Iterator[str]:
     yield f"Each participant sees {count(videos, 'video')} in about {count(minutes, 'minute')}."
     if protocol.practice:
         yield "A practice page comes first; its answers are not analysed."
+    if protocol.demographics:
+        questions = "; ".join(asked(question) for question in protocol.demographics)
+        yield f"About themselves participants are asked first: {questions}."
     for part in protocol.parts.values():
         yield from ("", f"### {part.title.in_('en')} (`{part.id}`)", "")
         yield from _part(part)
@@ -64,7 +71,8 @@ def _design(protocol: Protocol) -> Iterator[str]:
     yield (
         f"Orders are drawn by `{ALGORITHM}` from seed {protocol.seed} and the participant's place"
         + (f"; what is balanced is so exactly after every {whole} participants" if whole > 1 else "")
-        + ". A place left by somebody who does not finish is given to the next."
+        + ". A place is given to the next once nothing was answered for "
+        + f"{protocol.participants.abandoned_after / 60:g} minutes."
     )
 
 
@@ -93,30 +101,18 @@ def _stimuli(protocol: Protocol) -> Iterator[str]:
     video = protocol.video
     learning = protocol.learning
     yield f"Robot: {listed(protocol.robots)}. Gestures are learned as Dynamic Movement Primitives"
-    yield f"({learning.n_weights} basis functions, gain {learning.alpha:g}) and modulated by the parameters"
+    yield f"({parameters(learning.model_dump(mode='json'))}) and modulated by the parameters"
     yield "below, angles in radians and times in seconds; what is not listed is neutral."
-    yield f"Clips are rendered at {video.size} pixels and {video.fps} frames per second, without sound."
+    yield f"Clips are rendered at {video.size} pixels and {video.fps} frames per second, without sound,"
+    yield f"still for {video.lead_in:g} s before the motion and {video.hold:g} s after it. The questions open"
+    yield f"when a clip has been played to its end; it {replays(video)}."
     yield "The hash is that of all a clip is made from."
     yield from ("", "| id | gesture | parameters | SHA-256 |", "|---|---|---|---|")
     for stimulus_id, spec in specs(protocol).items():
         modulation = spec.modulation.model_dump(mode="json")
-        parameters = "; ".join(f"{kind}: {_parameters(values)}" for kind, values in modulation.items())
+        shown = "; ".join(f"{kind}: {parameters(values)}" for kind, values in modulation.items())
         gesture = protocol.stimuli[stimulus_id].gesture
-        yield f"| `{stimulus_id}` | {gesture} | {parameters or 'neutral'} | `{spec.sha256[:16]}` |"
-
-
-def _parameters(values: Mapping[str, Any]) -> str:
-    """Parameters as `name = value`, numbers to four digits; what is empty is left out."""
-    words = []
-    for name, value in values.items():
-        if isinstance(value, Mapping):
-            words += [
-                f"{inner}: ({_parameters(of)})" if isinstance(of, Mapping) else _parameters({inner: of})
-                for inner, of in value.items()
-            ]
-        elif value not in ([], None):
-            words.append(f"{name} = {value:.4g}" if isinstance(value, float) else f"{name} = {value}")
-    return ", ".join(words)
+        yield f"| `{stimulus_id}` | {gesture} | {shown or 'neutral'} | `{spec.sha256[:16]}` |"
 
 
 def _participants(protocol: Protocol) -> Iterator[str]:
@@ -126,13 +122,11 @@ def _participants(protocol: Protocol) -> Iterator[str]:
     if not rules.peeking:
         yield "No test is run before as many as planned have completed."
     if left_out := exclusions(rules.exclude):
-        yield f"Left out of all tests are {left_out}."
+        yield f"Left out of all tests are {left_out}. Whoever is left out after completing is not replaced."
     findings = power(protocol)
     if findings:
         yield from ("", "What so many can find:", "")
-    for found in findings:
-        strictest = f" in the strictest of {found.tests} tests" if found.tests > 1 else ""
-        yield f"- {found.hypothesis}: {found}{strictest}, at alpha = {found.alpha:.4g}."
+    yield from (f"- {found.hypothesis}: {found} {found.level}." for found in findings)
 
 
 def _analysis(protocol: Protocol) -> Iterator[str]:
@@ -144,5 +138,6 @@ def _analysis(protocol: Protocol) -> Iterator[str]:
         mirrored = ""
         if hypothesis.mirrors:
             mirrored = f" It is {hypothesis.mirrors} seen from the other side, and is not counted again."
-        yield f"- **{name}**: {tested(protocol, hypothesis)}.{mirrored}"
+        beside = f" {note}." if (note := beside_the_test(protocol, hypothesis)) else ""
+        yield f"- **{name}**: {tested(protocol, hypothesis)}.{mirrored or beside}"
     yield from ("", "Anything beyond this will be reported as exploratory.")

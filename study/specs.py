@@ -10,12 +10,14 @@ from stimuli.robots import load_robot
 from stimuli.spec import StimulusSpec, Video
 from study.protocol import Protocol, ProtocolError
 
+ABSENT = "cannot be found in this folder"  # said of a gesture's file
+
 
 def specs(protocol: Protocol) -> dict[str, StimulusSpec]:
     """The specification of every stimulus by id. Raises ProtocolError where a gesture's file is missing."""
     robots = {name: load_robot(name, protocol.folder) for name in protocol.robots}
     missing = [
-        protocol.source.problem(("gestures", name), "cannot be found in this folder")
+        protocol.source.problem(("gestures", name), ABSENT)
         for name, gesture in protocol.gestures.items()
         if not (protocol.folder / gesture.file).is_file()
     ]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 from study.power import family_size
 from study.protocol import Exclusions, Hypothesis, Order, Part, Participants, Protocol
-from study.protocol.parts import BETWEEN, series_of
+from study.protocol.parts import BETWEEN, could_be_meant, series_of
+from study.protocol.protocol import Video
 from study.questions import Question
 from study.questions.scale import Scale
 
@@ -73,7 +75,33 @@ def asked(question: Question) -> str:
     scored = series_of((question,))
     score = f"; their mean is the score *{listed(scored)}*" if len(scored) == 1 else ""
     score = f"; the means of series are the scores {listed(scored)}" if len(scored) > 1 else score
-    return f"“{question.text.in_('en')}”{of}{shuffled}, answered {question.answering}{score}"
+    balanced = ", the places of the options balanced" if len(question.option_orders) > 1 else ""
+    optional = ", if one likes" if question.optional else ""
+    answered = f"answered {question.answering}{balanced}{optional}"
+    return f"“{question.text.in_('en')}”{of}{shuffled}, {answered}{score}"
+
+
+def parameters(values: Mapping[str, Any]) -> str:
+    """Parameters as `name = value`, numbers to four digits; what is empty is left out."""
+    words = []
+    for name, value in values.items():
+        if isinstance(value, Mapping):
+            words += [
+                f"{inner}: ({parameters(of)})" if isinstance(of, Mapping) else parameters({inner: of})
+                for inner, of in value.items()
+            ]
+        elif value not in ([], None):
+            words.append(f"{name} = {value:.4g}" if isinstance(value, float) else f"{name} = {value}")
+    return ", ".join(words)
+
+
+def replays(video: Video, may: str = "may") -> str:
+    """How often a clip that was seen to its end may be watched again."""
+    if video.replays is None:
+        return f"{may} then be watched again as often as one likes"
+    if video.replays == 0:
+        return f"{may} not be watched again"
+    return f"{may} then be watched again {'once' if video.replays == 1 else f'{video.replays} times'}"
 
 
 def stop_rule(rules: Participants) -> str:
@@ -82,6 +110,17 @@ def stop_rule(rules: Participants) -> str:
     if rules.stop == "by hand":
         return f"{until}; the experimenter then closes it"
     return f"{until}; it then closes itself: nobody else may begin, and who has begun may finish and counts"
+
+
+def beside_the_test(protocol: Protocol, hypothesis: Hypothesis) -> str:
+    """What is added where a test of independent samples is used on answers by the same participants."""
+    order = protocol.written_parts[hypothesis.part].order
+    if hypothesis.test != "independent t" or BETWEEN in {order.stimuli, order.modulations}:
+        return ""
+    fitting = (
+        "the paired t-test and McNemar's exact test are" if hypothesis.outcome else "the paired t-test is"
+    )
+    return f"The same participants give both answers; {fitting} reported beside it"
 
 
 def exclusions(rules: Exclusions) -> str:
@@ -156,13 +195,22 @@ def tested(protocol: Protocol, hypothesis: Hypothesis) -> str:
     """The test that decides, exactly: of what, against what, which side, which correction."""
     test = f"{TESTS[hypothesis.test]} ({SIDES[hypothesis.alternative]})"
     if hypothesis.compare is None:
-        of = f"of the ratings on the target item against {chance_of(protocol, hypothesis)}"
+        of = f"of the ratings on the target item{_targets(protocol, hypothesis)} against "
+        of += chance_of(protocol, hypothesis)
     elif protocol.written_parts[hypothesis.part].pairs is not None:
         of = f"of the share that prefers {hypothesis.compare[0]} to {hypothesis.compare[1]} against 1/2"
     else:
         counted = f"the answer “{hypothesis.outcome}” (1, else 0)" if hypothesis.outcome else ""
         of = f"of {counted or _item(protocol, hypothesis)}, {' against '.join(hypothesis.compare)}"
     return f"{test} {of}; {corrected(protocol, hypothesis)}"
+
+
+def _targets(protocol: Protocol, hypothesis: Hypothesis) -> str:
+    """The stimuli that are tested, where some of the part are not meant to express an item."""
+    items = could_be_meant(protocol.written_parts[hypothesis.part].ask)
+    stimuli = protocol.stimuli_of(hypothesis.part)
+    targets = [stimulus.id for stimulus in stimuli if stimulus.name in items]
+    return "" if len(targets) == len(stimuli) else f", of {listed(targets)} alone,"
 
 
 def corrected(protocol: Protocol, hypothesis: Hypothesis) -> str:
@@ -177,6 +225,6 @@ def corrected(protocol: Protocol, hypothesis: Hypothesis) -> str:
 def _item(protocol: Protocol, hypothesis: Hypothesis) -> str:
     """What is rated: an item, or the mean of a series of them."""
     part = protocol.written_parts[hypothesis.part]
-    asked_for = hypothesis.item or next(item for question in part.ask for item in question.items)
+    asked_for = hypothesis.item or could_be_meant(part.ask)[0]
     items = series_of(part.ask).get(asked_for)
     return f"*{asked_for}* (the mean of {count(len(items), 'item')})" if items else f"*{asked_for}*"

@@ -97,7 +97,7 @@ def power(
         from study.power import power as power_of
 
         for found in power_of(protocol):
-            console.print(str(found))
+            console.print(f"{found.hypothesis}: {found} {found.level}; {found.planning}")
         return
     from analysis.simulated_power import simulated_power
 

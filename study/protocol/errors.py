@@ -24,9 +24,14 @@ class Problem:
         return f"{place}: {self.field}: {self.message}" if self.field else f"{place}: {self.message}"
 
 
+SHOWN = 50  # problems at most in one message
+
+
 class ProtocolError(InputError):
     """Everything found wrong in one reading of a protocol, in the order of the file."""
 
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems = tuple(sorted(problems, key=lambda problem: (problem.line or 0, problem.column or 0)))
-        super().__init__("\n".join(map(str, self.problems)))
+        more = len(self.problems) - SHOWN
+        rest = [f"and {more} more problems; mend these first"] if more > 0 else []
+        super().__init__("\n".join([*map(str, self.problems[:SHOWN]), *rest]))

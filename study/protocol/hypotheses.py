@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from study.protocol.contradiction import Contradiction, unknown
-from study.protocol.parts import BETWEEN, WrittenPart, series_of
+from study.protocol.parts import BETWEEN, WrittenPart, could_be_meant, series_of
 from study.protocol.plan import Hypothesis
 from study.protocol.protocol import Protocol
 from study.questions import Question
@@ -67,9 +67,11 @@ def _test(
     protocol: Protocol, hypothesis: Hypothesis, part: WrittenPart, here: Location
 ) -> Iterator[Contradiction]:
     """Tests of another kind of data than the part yields."""
-    tested = "pairs" if part.pairs is not None else "choices" if hypothesis.outcome else "ratings"
-    tested = "target" if hypothesis.of else tested
-    if hypothesis.test not in TESTS[tested]:
+    tested = "target" if hypothesis.of else "choices" if hypothesis.outcome else "ratings"
+    tested = "pairs" if part.pairs is not None else tested
+    if tested == "pairs" and hypothesis.of:
+        yield (*here, "of"), "does not go with pairs; write compare: [one, another]"
+    elif hypothesis.test not in TESTS[tested]:
         fit = ", ".join(TESTS[tested])
         yield (
             (*here, "test"),
@@ -79,6 +81,10 @@ def _test(
         yield (*here, "test"), f"counts hits, which needs against: {HITS}"
     elif tested == "pairs":
         yield from _of_pairs(protocol, hypothesis, part, here)
+    elif tested == "target":
+        yield from _chance(hypothesis, part, here)
+    elif hypothesis.item is None and len(items := could_be_meant(part.ask)) > 1:
+        yield (*here, "compare"), f"does not say of which item; add item: with one of {', '.join(items)}"
     elif tested == "ratings" and (question := _asked(hypothesis, part)):
         if question.values is None:
             yield (*here, "compare"), "is about free answers, which no test here compares"
@@ -89,12 +95,21 @@ def _test(
         yield (*here, "test"), "sets a person's answers side by side, but each sees one; use independent t"
 
 
+def _chance(hypothesis: Hypothesis, part: WrittenPart, here: Location) -> Iterator[Contradiction]:
+    """A level of chance that no rating can be compared with."""
+    scale = next((question.scale for question in part.ask if isinstance(question, Scale)), None)
+    if scale is None:
+        yield (*here, "of"), "needs ratings; the answers here are none"
+    elif isinstance(hypothesis.against, float) and not scale[0] <= hypothesis.against <= scale[1]:
+        yield (*here, "against"), f"is not on the scale, which goes from {scale[0]} to {scale[1]}"
+
+
 def _of_pairs(
     protocol: Protocol, hypothesis: Hypothesis, part: WrittenPart, here: Location
 ) -> Iterator[Contradiction]:
-    if hypothesis.compare is None:
-        yield (*here, "of"), f"does not go with pairs, as in {hypothesis.part}; write compare: [one, another]"
-    elif not any(pair.of(hypothesis.compare) for pair in protocol.pairs_of(hypothesis.part)):
+    if hypothesis.compare and not any(
+        pair.of(hypothesis.compare) for pair in protocol.pairs_of(hypothesis.part)
+    ):
         yield (*here, "compare"), f"names no pair of {hypothesis.part}"
     if hypothesis.outcome is not None:
         yield (*here, "outcome"), "does not go with pairs: the first of `compare` is what counts"
@@ -105,7 +120,8 @@ def _of_pairs(
 def _asked(hypothesis: Hypothesis, part: WrittenPart) -> Question | None:
     """The question a hypothesis is about; None for a series of items."""
     items = _questions_by_item(part)
-    return items.get(hypothesis.item or next(iter(items)))
+    meant = [hypothesis.item] if hypothesis.item else could_be_meant(part.ask)
+    return items.get(meant[0] if meant else next(iter(items)))
 
 
 def _questions_by_item(part: WrittenPart) -> Mapping[str, Question]:

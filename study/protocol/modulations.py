@@ -28,7 +28,8 @@ def _modulation(principles: Mapping[str, Any]) -> Modulation:
     errors: list[InitErrorDetails] = []
     for kind, value in principles.items():
         if kind not in PRINCIPLES:
-            error = wrong_at((kind,), f"is no principle; {nearest(kind, PRINCIPLES)}", value, NAME)
+            meant = "write decimals with a point, as in 1.4" if kind.isdigit() else nearest(kind, PRINCIPLES)
+            error = wrong_at((kind,), f"is no principle; {meant}", value, NAME)
             errors += relocated(error, ())
             continue
         if isinstance(value, bool) or value == {}:

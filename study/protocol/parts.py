@@ -62,6 +62,8 @@ class Gesture(Written):
 
 
 def _file(value: Any) -> Any:
+    if value is None or isinstance(value, (list, int, float)):
+        raise wrong("must be a file, such as gestures/wave.yaml")
     return {"file": value} if isinstance(value, (str, Path)) else value
 
 
@@ -177,6 +179,11 @@ def series_of(questions: Sequence[Question]) -> dict[str, tuple[str, ...]]:
         pair for question in questions if isinstance(question, Scale) for pair in question.series.items()
     ]
     return {name: tuple(item for item, of in scored if of == name) for _, name in scored}
+
+
+def could_be_meant(questions: Sequence[Question]) -> list[str]:
+    """The items that a hypothesis which names none may be about: all but checks and free words."""
+    return [item for q in questions if q.kind not in {"attention", "text"} for item in q.items]
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,12 @@ class Exclusions(Written):
     straight_lining: bool = False  # the same answer to every item of a part
 
 
+def _not_empty(value: Any) -> Any:
+    if not value:
+        raise wrong("is empty; write service: prolific, sona or mturk, or leave it out")
+    return value
+
+
 class Participants(Written):
     """How many, and who is left out."""
 
@@ -53,7 +59,7 @@ class Participants(Written):
     abandoned_after: Seconds = 3600.0  # without an answer; the place in the design is then given to the next
     links_last: Seconds = 90 * 86_400.0  # a link or code with which nobody has begun by then opens nothing
     exclude: Exclusions = Exclusions()
-    recruitment: Recruitment = Recruitment()
+    recruitment: Annotated[Recruitment, BeforeValidator(_not_empty)] = Recruitment()
     peeking: bool = False  # whether the report may be seen before as many as planned have completed
 
 

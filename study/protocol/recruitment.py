@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 from pydantic import model_validator
 
+from stimuli.errors import nearest
 from study.written import Written, wrong_at
 
 Service = Literal["prolific", "sona", "mturk"]
@@ -18,6 +19,7 @@ PARAMETERS: Mapping[Service, str] = {  # in the address they send people to: wha
     "sona": "survey_code",
     "mturk": "workerId",
 }
+GAPS = ("id", "code")  # in a completion address, in braces
 HOSTS = ("app.prolific.com", "*.sona-systems.com", "worker.mturk.com", "workersandbox.mturk.com")
 ADDRESS = re.compile(
     r"https://([a-z0-9.-]+)(?::\d+)?(?:[/?#][^\s\\]*)?"
@@ -40,6 +42,10 @@ class Recruitment(Written):
             raise wrong_at(
                 ("completion_url",), "must be an address that begins with https://", self.completion_url
             )
+        for gap in re.findall(r"{(.*?)}", self.completion_url):
+            if gap not in GAPS:
+                message = f"has {{{gap}}}, which stands for nothing; {nearest(gap, GAPS)}"
+                raise wrong_at(("completion_url",), message, self.completion_url)
         host = found[1]
         if not any(_is(host, known) for known in (*HOSTS, *self.hosts)):
             message = f"sends participants to {host}; if that is meant, add `hosts: [{host}]`"

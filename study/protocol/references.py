@@ -8,9 +8,10 @@ from study.protocol.contradiction import Contradiction, unknown
 from study.protocol.hypotheses import hypotheses
 from study.protocol.parts import BESIDE, NEUTRAL, PRACTICE
 from study.protocol.protocol import Protocol
-from study.protocol.recorded import recorded
+from study.protocol.renamed import renamed
 from study.protocol.texts import files_named_in
 from study.questions import Question
+from study.questions.attention import Attention
 from study.questions.prefer import Prefer
 from study.text import Text
 from study.written import Location
@@ -26,8 +27,9 @@ def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
     if not lost:  # what follows needs the stimuli
         yield from _ids(protocol)
         yield from _pairs(protocol)
+        yield from _attention(protocol)
         yield from hypotheses(protocol)
-        yield from recorded(protocol)
+        yield from renamed(protocol)
 
 
 def _stimuli(protocol: Protocol) -> Iterator[Contradiction]:
@@ -136,7 +138,7 @@ def _questions(protocol: Protocol) -> Iterator[Contradiction]:
 
 
 def _conditions(protocol: Protocol) -> Iterator[Contradiction]:
-    """Parts shown only after certain answers, and checks on certain trials."""
+    """Parts shown only after certain answers."""
     earlier = {item: question.values for question in protocol.demographics for item in question.items}
     for part_id, part in protocol.written_parts.items():
         for item, answers in part.only_if.items():
@@ -145,6 +147,24 @@ def _conditions(protocol: Protocol) -> Iterator[Contradiction]:
             for answer in answers if item in earlier else ():
                 yield from unknown(here, answer, earlier[item] or (answer,), f"answer to {item}")
         earlier |= {item: question.values for question in part.ask for item in question.items}
+
+
+def _attention(protocol: Protocol) -> Iterator[Contradiction]:
+    """Attention checks on trials there are not, and more failures asked for than there are checks."""
+    checks = sum(isinstance(question, Attention) for question in protocol.demographics)
+    for part_id, part in protocol.written_parts.items():
+        trials = part.order.shown(protocol.judged_in(part_id))
+        for at, question in enumerate(part.ask):
+            if not isinstance(question, Attention):
+                continue
+            checks += len(question.at or range(trials))
+            for place, trial in enumerate(question.at or ()):
+                if trial > trials:
+                    here = ("parts", part_id, "ask", at, question.kind, "at", place)
+                    yield here, f"is no trial of {part_id}, which has {trials}"
+    needed = protocol.participants.exclude.failed_attention or 0
+    if needed > checks:
+        yield ("participants", "exclude", "failed_attention"), f"is more than the attention checks: {checks}"
 
 
 def _texts(protocol: Protocol) -> Iterator[Contradiction]:

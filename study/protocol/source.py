@@ -41,7 +41,7 @@ class Source:
         found: Location = ()
         rest: Location = ()
         for element in location:
-            if (*found, element) in self.places:
+            if (*found, element) in self.places and (found or not rest):
                 found, rest = (*found, element), ()
             else:
                 rest = (*rest, element)
@@ -110,7 +110,7 @@ class _Reader:
             events = iter(yaml.parse(self.text, Loader=yaml.CSafeLoader))
             value = self._document(events)
         except yaml.MarkedYAMLError as error:
-            mark = error.problem_mark or error.context_mark
+            mark = error.context_mark if _lacks_value(error) else error.problem_mark or error.context_mark
             line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
             _fail(self.path, _plainly(error, self.text), line, column)
         except yaml.reader.ReaderError as error:
@@ -157,6 +157,8 @@ class _Reader:
             if not isinstance(event, yaml.ScalarEvent) or getattr(event, "tag", None) or event.anchor:
                 self._refuse(event, "a name must be plain text")
             key = event.value
+            if key == "<<":
+                self._refuse(event, "merging (<<) is not used in protocols; write it out, or use extends")
             if key in values:
                 line, _ = self.key_places[(*at, key)]
                 self._refuse(event, f"{written((*at, key))} is given twice; first in line {line}")
@@ -172,7 +174,9 @@ class _Reader:
             return None
         if text in {"true", "false"}:
             return text == "true"
-        if re.fullmatch(r"[-+]?\d{1,18}", text):
+        if re.fullmatch(r"[-+]?\d{19,}", text):
+            self._refuse(event, "has more digits than any number of a study")
+        if re.fullmatch(r"[-+]?\d+", text):
             return int(text)
         if re.fullmatch(r"[-+]?(\d+\.\d*|\.?\d+)([eE][-+]?\d+)?", text) and abs(float(text)) < float("inf"):
             return float(text)
@@ -189,12 +193,19 @@ def _place(event: yaml.Event) -> tuple[int, int]:
     return (mark.line + 1, mark.column + 1) if mark else (1, 1)
 
 
+def _lacks_value(error: yaml.MarkedYAMLError) -> bool:
+    """Whether a name stands there without its value."""
+    return error.context == "while scanning a simple key" and error.context_mark is not None
+
+
 def _plainly(error: yaml.MarkedYAMLError, text: str) -> str:
     """Say what is wrong with the YAML in words that tell what to do."""
     mark = error.problem_mark
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line][: mark.column + 1]:
         return "a tab indents this line; indent with spaces"
+    if _lacks_value(error):
+        return "is a name without a value; after a name come a colon, a space and its value"
     return (
         f"is not YAML: {error.problem or error.context}; look at the indentation, colons and brackets here, "
         'and put text with any of , : ? # [ ] { } into "quotes"'

@@ -42,7 +42,9 @@ class Attention(Choice):
     @property
     def answering(self) -> str:
         """The options, and which was asked for."""
-        return f"{super().answering}; an attention check, passed by “{self.options[self.expected].in_('en')}”"
+        trials = f" on trial {' and '.join(map(str, self.at))}" if self.at else ""
+        passed = self.options[self.expected].in_("en")
+        return f"{super().answering}; an attention check{trials}, passed by “{passed}”"
 
     def asked_at(self, trial: int) -> bool:
         """Whether it stands on the page of this trial, counted from 1; 0 is practice."""

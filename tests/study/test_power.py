@@ -35,6 +35,8 @@ def test_power_of_t_tests_agrees_with_r():
 def test_effects_and_numbers_agree_with_r():
     # R: power.t.test(power = .8, delta = .5, type = "one.sample", alternative = "one.sided")$n is 26.14
     assert participants_needed(lambda n: t_power(n, 0.5, 0.05)) == 27
+    # R: power.t.test(power = .8, delta = .8, sig.level = .0167, strict = TRUE)$n is 34.1676
+    assert participants_needed(lambda n: t_power(n, 0.8, 0.0167, groups=2, two_sided=True)) == 35
     # R: power.t.test(n = 34, power = .8, type = "one.sample", alternative = "one.sided")$delta
     assert smallest_effect(lambda d: t_power(34, d, 0.05)) == pytest.approx(0.435454380370621, abs=1e-3)
 
@@ -53,6 +55,13 @@ def test_without_an_effect_power_is_at_most_alpha():
     assert t_power(36, 0.0, 0.05) == pytest.approx(0.05)
     assert mcnemar_power(36, 0.5, 0.5, 0.05) <= 0.05
     assert mcnemar_power(36, 1.0, 1.0, 0.05) == 0.0
+
+
+@pytest.mark.parametrize("name", ["hielscher2025", "godspeed", "online", "template"])
+def test_a_larger_effect_needs_fewer_participants(name):
+    for found in power(load_protocol(Path(__file__).parents[2] / "protocols" / name)):
+        numbers = list(found.needed.values())
+        assert numbers == sorted(set(numbers), reverse=True), found
 
 
 def test_each_hypothesis_that_counts_has_a_smallest_effect():

@@ -58,13 +58,25 @@ def test_uneven_numbers_and_missing_texts_and_gestures_are_said(load, written):
     written["parts"]["recognition"]["ask"][0]["rate"]["items"]["joy"] = {"en": "Joy"}
     report = check(load(written))
     assert not report.good
-    assert "30 or 36 would not" in found(report, "orders").message
+    assert "uneven with 34 participants; even with 30 or 36" in found(report, "orders").message
     assert "ask[0].rate.items.joy: is missing in de and fr" in found(report, "texts").message
-    assert "texts.consent: is missing in fr" in found(report, "texts").message
+    assert "come in English and German; write your own for fr" in found(report, "texts").message
     assert "not in fr" in str(report), "the interface has no French catalogue"
     assert "gestures.explain: " in found(report, "gestures").message
     assert str(report).endswith("Not ready: mend what is marked ✗.")
     assert report.as_json()["good"] is False
+
+
+def test_what_is_declared_but_never_shown_is_to_be_minded(load, written):
+    written["modulations"] |= {
+        "base": {"time": 1.1},
+        "glee": {"extends": "base"},
+        "tempo": {"grid": {"exa": [1, 2]}},
+    }
+    written["gestures"]["spare"] = "gestures/spare.yaml"
+    written["parts"]["recognition"]["stimuli"]["modulations"].append("tempo_2")
+    minded = [one.message for one in check(load(written)).findings if one.message.startswith("declared")]
+    assert minded == [f"declared but shown in no part: {name}" for name in ("spare", "glee")]
 
 
 def test_a_gesture_that_is_eased_is_to_be_minded(load, written, tmp_path):

@@ -22,7 +22,9 @@ parts:
   only:
     title: Only
     stimuli: {gesture: wave, modulations: [neutral]}
-    ask: [{text: {item: remark, text: Remark}}]
+    ask:
+      - attention: {text: Choose b, options: [a, b], expected: b}
+      - attention: {item: again, text: Choose a, options: [a, b], expected: a}
 participants: {planned: 2}
 """
 

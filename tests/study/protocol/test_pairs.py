@@ -155,3 +155,10 @@ def test_what_cannot_be_compared_is_refused(load, before, after, message):
     with pytest.raises(ProtocolError, match=message) as refused:
         load(STUDY.replace(before, after, 1))
     assert all(problem.line for problem in refused.value.problems)
+
+
+def test_targets_are_not_tested_on_pairs(load):
+    rated = "{rate: {text: It is, items: [calm, lively], ends: [not, very]}}"
+    asked = STUDY.replace("better?}}]", f"better?}}}}, {rated}]", 1)
+    with pytest.raises(ProtocolError, match=r"H1\.of: 'target' does not go with pairs; write compare"):
+        load(asked.replace("test: binomial, compare: [lively, calm]", "test: one-sample t, of: target", 1))

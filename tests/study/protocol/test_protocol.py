@@ -1,8 +1,10 @@
 """The paper's protocol is read whole; what is wrong is said at its place, all of it at once."""
 
+import json
 from pathlib import Path
 
 import pytest
+import yaml
 
 from stimuli.principles import Modulation
 from study.protocol import ProtocolError, load_protocol
@@ -97,6 +99,43 @@ def test_hypotheses_speak_of_what_is_there(load, written, field, value, message)
         load(written)
     assert refused.value.problems[0].message == message
     assert refused.value.problems[0].field.startswith(f"analysis.H2.1.{field}")
+
+
+RATED = {"text": "How", "items": ["joy", "fear"], "ends": ["low", "high"]}
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("analysis.H1.against: 9", "'9' is not on the scale, which goes from 1 to 5"),
+        ("analysis.H1.part: intensity", "needs items of intensity that bear the names of its modulations"),
+        (
+            "parts.intensity.ask.1: {rate: RATED}",
+            "does not say of which item; add item: with one of intensity, joy, fear",
+        ),
+        ("parts.intensity.ask.1: {attention: CHECK}", "'13' is no trial of intensity, which has 12"),
+        ("participants.exclude: {failed_attention: 1}", "'1' is more than the attention checks: 0"),
+        ("participants.recruitment: {}", "is empty; write service: prolific, sona or mturk, or leave it out"),
+        ("participants.recruitment: {completion_ulr: x}", "is no field here; did you mean completion_url?"),
+        ("gestures.wave: null", "must be a file, such as gestures/wave.yaml"),
+        ("modulations.joy.4: null", "is no principle; write decimals with a point, as in 1.4"),
+    ],
+)
+def test_what_a_new_user_may_slip_on_is_said(load, written, change, message):
+    check = {"text": "Choose b", "options": ["a", "b"], "expected": "b", "at": [2, 13]}
+    words = change.replace("RATED", json.dumps(RATED)).replace("CHECK", json.dumps(check))
+    place, _, value = words.partition(": ")
+    *path, last = place.split(".")
+    holder = written
+    for key in path:
+        holder = holder[int(key) if isinstance(holder, list) else key]
+    if isinstance(holder, list):
+        holder[int(last) :] = [yaml.safe_load(value)]
+    else:
+        holder[last] = yaml.safe_load(value)
+    with pytest.raises(ProtocolError) as refused:
+        load(written)
+    assert any(message in problem.message for problem in refused.value.problems), str(refused.value)
 
 
 def test_modulations_extend_each_other(load, written):

@@ -37,6 +37,11 @@ def test_nobody_is_sent_anywhere_else(address: str) -> None:
         Recruitment(completion_url=address)
 
 
+def test_a_gap_that_nothing_fills_is_refused() -> None:
+    with pytest.raises(ValidationError, match=r"has {pid}, which stands for nothing; did you mean id\?"):
+        Recruitment(completion_url="https://app.prolific.com/done?cc={pid}")
+
+
 def test_another_host_can_be_allowed_by_name() -> None:
     address = "https://panel.example/done?id={id}&code={code}"
     allowed = Recruitment(completion_url=address, hosts=("panel.example",))

@@ -30,7 +30,9 @@ HOSTILE = {
     "a key that is a list": ("{[a]: 1}\n", "1:2", "must be plain text"),
     "an open bracket": ("a: [1, 2\nb: 3\n", "2:2", "is not YAML"),
     "a colon in braces": ("title: {en: Why: because, de: x}\n", "1:", '"quotes"'),
-    "a merge of what is not there": ("a: {<<: *base}\n", "1:9", "anchors"),
+    "a number of many digits": ("seed: " + "9" * 40 + "\n", "1:7", "more digits"),
+    "no space after a colon": ("study: a\nrobot:pepper\nseed: 1\n", "2:1", "a name without a value"),
+    "a merge of what is not there": ("a: {<<: *base}\n", "1:5", "merging"),
 }
 
 
