@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 WIDTH_IN, HEIGHT_IN, MARGIN_IN = 210 / 25.4, 297 / 25.4, 0.85  # A4
 TEXT_IN = WIDTH_IN - 2 * MARGIN_IN
-LEADING = 1.42  # line height, in font sizes
+LEADING, ASCENT = 1.42, 0.76  # height of a line, and of a letter above its baseline, in font sizes
 FIGURE_IN = 4.7  # width of a figure on a page
 BELOW_IN = 0.07  # below a paragraph
 TALLEST_IN = HEIGHT_IN - 2 * MARGIN_IN - 1.5  # a figure that leaves room for its heading and caption
@@ -117,7 +117,12 @@ class Pages:
             3, 3, self.page, width_ratios=[left, FIGURE_IN, left],
             height_ratios=[HEIGHT_IN - self.y, height, self.y - height], hspace=0, wspace=0,
         )  # fmt: skip
-        drawing.onto(self.page.add_subfigure(grid[1, 1]))
+        part = self.page.add_subfigure(grid[1, 1])
+        drawing.onto(part)
+        for axes, laid_out in zip(part.axes, drawing.figure.axes, strict=True):
+            axes.set_position(laid_out.get_position())
+        if height < drawing.height_in:  # the margins of the taller figure are too narrow
+            lay_out(self.page)
         self.y -= height + 0.08
 
     def _row(self, cells: Sequence[str], widths: Sequence[float], *, size: float, bold: bool = False) -> None:
@@ -141,11 +146,14 @@ class Pages:
     def _text(
         self, x: float, text: str, *, size: float, bold: bool = False, colour: str = INK, align: str = "left"
     ) -> None:
+        from analysis.line import Line
+
         assert self.page is not None
-        self.page.text(
-            x / WIDTH_IN, self.y / HEIGHT_IN, text, fontsize=size, fontweight="bold" if bold else "normal",
-            color=colour, ha=align, va="top", parse_math=False,
-        )  # fmt: skip
+        if align == "right":
+            x -= _width_in(text, size=size, bold=bold)
+        place = (x / WIDTH_IN, (self.y - size / 72 * ASCENT) / HEIGHT_IN)
+        weight = "bold" if bold else "normal"
+        self.page.add_artist(Line(*place, text, fontsize=size, fontweight=weight, color=colour))
 
     def _room(self, height: float) -> None:
         if self.y - height < MARGIN_IN:
@@ -167,7 +175,6 @@ class Pages:
 
     def _finish(self) -> None:
         if self.page is not None:
-            lay_out(self.page)
             self.pdf.savefig(self.page)  # type: ignore[no-untyped-call]
 
 

@@ -9,6 +9,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from analysis.drawing import Drawing
+from analysis.line import Line
 from analysis.pages import Pages
 
 LONG = "a sentence of many words, some of them iiiiiiii and some WWWWWWWW, p = .014, 95% CI [0.06, 1.03] " * 4
@@ -16,9 +17,13 @@ NAMES = ["Rating", "means", "t", "df", "d [95% CI]", "difference [95% CI]"]
 FIGURE = Drawing(name="f", paint=lambda figure: None, height_in=2, caption=LONG, alt="")
 
 
-def texts(pages: Pages) -> list[str]:
+def lines(pages: Pages) -> list[Line]:
     assert pages.page is not None
-    return [text.get_text() for text in pages.page.texts]
+    return [artist for artist in pages.page.artists if isinstance(artist, Line)]
+
+
+def texts(pages: Pages) -> list[str]:
+    return [line.get_text() for line in lines(pages)]
 
 
 @pytest.mark.parametrize("lines", range(20, 56, 7))
@@ -52,7 +57,7 @@ def test_columns_of_a_table_never_touch_and_lines_end_before_the_margin(tmp_path
         pages.write(LONG)
         assert pages.page is not None
         FigureCanvasAgg(pages.page)
-        boxes = [text.get_window_extent() for text in pages.page.texts if text.get_text()]
+        boxes = [text.get_window_extent() for text in lines(pages) if text.get_text()]
         right = pages.page.bbox.width - boxes[0].width / 2
         for one, other in pairwise(boxes[1 : 1 + 2 * columns]):
             assert other.y0 < one.y0 - 1 or other.x0 > one.x1
