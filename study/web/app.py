@@ -32,6 +32,7 @@ def create_app(site: Site) -> FastAPI:
         title=site.protocol.study,
         openapi_url=None,
         max_body_size=LONGEST_BODY,
+        telemetry={"tracing": False, "metrics": False, "logs": False},  # a study tells nobody anything
     )
     app.state.site = site
     app.state.limits = Limits()

@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 from collections.abc import Collection, Mapping
 from datetime import datetime, timedelta
+from functools import cache
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Form, Request
@@ -293,10 +294,17 @@ def _page(
         "replays": site.protocol.video.replays,
         "event_url": url(request.app, "events"),
         "next_url": url(request.app, "study"),
-        "texts": {name: say(english) for name, english in PAGE_TEXTS.items()},
+        "texts": page_texts(language),
     }
     template = f"{step.kind}.html"
     return render(request, template, language=language, kind=participant.kind, page=facts, **values)
+
+
+@cache
+def page_texts(language: str) -> Mapping[str, str]:
+    """What the page's scripts say."""
+    say = load_language(language).text
+    return {name: say(english) for name, english in PAGE_TEXTS.items()}
 
 
 PAGE_TEXTS = {
