@@ -8,7 +8,7 @@ import signal
 import time
 import traceback
 from collections import Counter, deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
@@ -21,6 +21,7 @@ from stimuli.spec import StimulusSpec
 from stimuli.whole_files import sweep
 
 ATTEMPTS = 2  # a clip whose worker died or hung is tried once more
+Clock = Callable[[], float]  # seconds since whenever
 SILENCE_S = 180.0  # without a new frame, after which a worker counts as hanging
 
 
@@ -31,6 +32,7 @@ def film_here(
     *,
     workers: int,
     silence_s: float = SILENCE_S,
+    clock: Clock = time.monotonic,
 ) -> Iterator[Filmed]:
     """Clips as they are finished. Those whose workers failed twice are named when all others are done."""
     left, failures = deque(specs), Counter[str]()
@@ -39,7 +41,7 @@ def film_here(
     try:
         while left or team:
             while left and len(team) < workers:
-                team.append(Worker(robots, folder, alone=workers == 1))
+                team.append(Worker(robots, folder, clock, alone=workers == 1))
                 team[-1].film(left.popleft())
             wait([worker.answers for worker in team], timeout=1.0)
             for worker in list(team):
@@ -75,7 +77,8 @@ def film_here(
 class Worker:
     """A process that films, as its parent sees it."""
 
-    def __init__(self, robots: Mapping[str, Robot], folder: Path, *, alone: bool) -> None:
+    def __init__(self, robots: Mapping[str, Robot], folder: Path, clock: Clock, *, alone: bool) -> None:
+        self.clock = clock
         context = multiprocessing.get_context("spawn")  # a forked process would hang in OpenGL
         self.answers, theirs = context.Pipe()
         self.process = context.Process(target=_serve, args=(theirs, robots, folder, alone), daemon=True)
@@ -84,7 +87,7 @@ class Worker:
 
     def film(self, spec: StimulusSpec) -> None:
         """Begin a clip."""
-        self.spec, self.share, self.heard = spec, 0.0, time.monotonic()
+        self.spec, self.share, self.heard = spec, 0.0, self.clock()
         with suppress(OSError):  # it has died, which `look` will see
             self.answers.send(spec)
 
@@ -93,7 +96,7 @@ class Worker:
         try:
             while self.answers.poll():
                 answer: Clip | float | Exception = self.answers.recv()
-                self.heard = time.monotonic()
+                self.heard = self.clock()
                 if isinstance(answer, Exception):
                     raise answer
                 if isinstance(answer, Clip):
@@ -101,7 +104,7 @@ class Worker:
                 self.share = answer
         except (EOFError, ConnectionError):
             return "died"
-        silent = time.monotonic() - self.heard > silence_s
+        silent = self.clock() - self.heard > silence_s
         return f"no frame for {silence_s:g} s" if silent else None
 
     def end(self) -> None:

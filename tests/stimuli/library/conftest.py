@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from stimuli.dmp import Learning
+from stimuli.library import Progress, render_missing
+from stimuli.manifest import Manifest
 from stimuli.principles import Modulation
 from stimuli.robots import load_robot
 from stimuli.robots.model import Robot
@@ -25,7 +28,10 @@ joints:
 """
 SMALL = Video(width=64, height=64, fps=10, camera="head", lead_in_s=0.1, hold_s=0.2)
 
+PATIENCE_S = 300  # on a machine that has much else to do
+
 MakeSpec = Callable[..., StimulusSpec]
+Rendered = tuple[Manifest, Path, list[Progress]]
 
 
 @pytest.fixture(scope="session")
@@ -63,3 +69,25 @@ def spec(gesture: Path, pepper: Robot) -> MakeSpec:
 def study(spec: MakeSpec) -> list[StimulusSpec]:
     """Three stimuli, two of which look the same."""
     return [spec("neutral"), spec("slow", time=1.5), spec("same")]
+
+
+@pytest.fixture(scope="session")
+def rendered(study: list[StimulusSpec], pepper: Robot, tmp_path_factory: pytest.TempPathFactory) -> Rendered:
+    """The study's clips, their folder, and what was told while they were made."""
+    folder = tmp_path_factory.mktemp("clips")
+    told: list[Progress] = []
+    return render_missing(study, {"pepper": pepper}, folder, workers=2, progress=told.append), folder, told
+
+
+@pytest.fixture(scope="session")
+def begun() -> Callable[[Path], Path]:
+    """Wait until a clip is being written in a folder, and return the file that will not stay."""
+
+    def wait(folder: Path) -> Path:
+        deadline = time.monotonic() + PATIENCE_S
+        while not (files := list(folder.glob(".*.part.mp4"))) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        (file,) = files
+        return file
+
+    return wait

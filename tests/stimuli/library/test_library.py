@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 
+import av
 import numpy as np
 import pytest
 
@@ -19,25 +21,18 @@ from stimuli.errors import InputError
 from stimuli.filming import render_clip
 from stimuli.library import Progress, render_missing
 from stimuli.manifest import Manifest
+from stimuli.motion import generate
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec, Video
+from stimuli.video import frame_positions
 
 SMALL = Video(width=64, height=64, fps=10, camera="head", lead_in_s=0.1, hold_s=0.2)
 MakeSpec = Callable[..., StimulusSpec]
-
-
-@pytest.fixture(scope="module")
-def rendered(
-    study: list[StimulusSpec], pepper: Robot, tmp_path_factory: pytest.TempPathFactory
-) -> tuple[Manifest, Path, list[Progress]]:
-    folder = tmp_path_factory.mktemp("clips")
-    told: list[Progress] = []
-    manifest = render_missing(study, {"pepper": pepper}, folder, workers=2, progress=told.append)
-    return manifest, folder, told
+Rendered = tuple[Manifest, Path, list[Progress]]
 
 
 def test_every_stimulus_has_its_clip_and_equal_ones_share_it(
-    rendered: tuple[Manifest, Path, list[Progress]], study: list[StimulusSpec]
+    rendered: Rendered, study: list[StimulusSpec]
 ) -> None:
     manifest, folder, told = rendered
     assert list(manifest.clips) == ["neutral", "slow", "same"]
@@ -53,8 +48,33 @@ def test_every_stimulus_has_its_clip_and_equal_ones_share_it(
         assert clip.gl_renderer not in ("", "unknown")
 
 
+def test_every_clip_shows_each_pose_once_at_its_time(rendered: Rendered, pepper: Robot) -> None:
+    manifest, folder, _ = rendered
+    for clip in manifest.clips.values():
+        spec = StimulusSpec.model_validate(clip.spec)
+        trajectory, video = generate(spec, pepper).trajectory, spec.video
+        poses = frame_positions(trajectory, video)
+        with av.open(str(folder / clip.file)) as file:
+            stream = file.streams.video[0]
+            assert (stream.codec_context.name, stream.codec_context.pix_fmt) == ("h264", "yuv420p")
+            assert stream.average_rate == stream.base_rate == clip.fps == video.fps
+            packets = [packet for packet in file.demux(stream) if packet.pts is not None]
+            file.seek(0)
+            frames = list(file.decode(stream))
+        seconds = video.lead_in_s + trajectory.duration_s + video.hold_s
+        assert len(frames) == len(poses) == clip.frames == math.floor(seconds * video.fps + 0.5)
+        assert [frame.time for frame in frames] == [k / video.fps for k in range(clip.frames)]
+        assert {packet.duration * packet.time_base for packet in packets} == {Fraction(1, video.fps)}
+        grey = np.stack([frame.to_ndarray(format="gray").astype(int) for frame in frames])
+        changes = np.abs(np.diff(grey, axis=0)).max(axis=(1, 2))
+        moves = np.abs(np.diff(poses, axis=0)).max(axis=1)
+        assert changes[moves > np.radians(1)].min() > 2 * changes[moves == 0].max()
+        content = (folder / clip.file).read_bytes()
+        assert content.index(b"moov") < content.index(b"mdat")
+
+
 def test_a_second_run_renders_nothing_and_imports_nothing_heavy(
-    rendered: tuple[Manifest, Path, list[Progress]], study: list[StimulusSpec], tmp_path: Path
+    rendered: Rendered, study: list[StimulusSpec], tmp_path: Path
 ) -> None:
     _, folder, _ = rendered
     specs = tmp_path / "specs.json"
@@ -78,14 +98,14 @@ assert not {{"mujoco", "scipy", "av"}} & set(sys.modules)
 
 
 def test_rendering_elsewhere_gives_the_same_bytes(
-    rendered: tuple[Manifest, Path, list[Progress]], study: list[StimulusSpec], pepper: Robot, tmp_path: Path
+    rendered: Rendered, study: list[StimulusSpec], pepper: Robot, tmp_path: Path
 ) -> None:
     manifest, _, _ = rendered
     assert render_clip(study[1], pepper, tmp_path).file_sha256 == manifest.clips["slow"].file_sha256
 
 
 def test_a_damaged_clip_and_a_changed_stimulus_alone_are_rendered_again(
-    rendered: tuple[Manifest, Path, list[Progress]],
+    rendered: Rendered,
     study: list[StimulusSpec],
     pepper: Robot,
     spec: MakeSpec,
@@ -114,7 +134,7 @@ def test_auto_framing_is_decided_once_for_the_whole_study(
 
 
 def test_a_killed_run_leaves_no_clip_half_written_and_the_next_one_finishes(
-    spec: MakeSpec, pepper: Robot, tmp_path: Path
+    spec: MakeSpec, pepper: Robot, begun: Callable[[Path], Path], tmp_path: Path
 ) -> None:
     long = Video(width=320, height=180, fps=60, camera="head", lead_in_s=2, hold_s=0)
     one = spec("long", long)
@@ -131,21 +151,17 @@ render_clip(one, load_robot("pepper", Path()), Path({str(clips)!r}))
 """
     clips.mkdir()
     running = subprocess.Popen([sys.executable, "-c", start])
-    deadline = time.monotonic() + 60
-    while not list(clips.glob(".*.part.mp4")) and time.monotonic() < deadline:
-        time.sleep(0.01)
+    left = begun(clips)
     running.kill()
     running.wait()
-    assert list(clips.glob(".*.part.mp4"))
+    assert left.exists()
     assert not [path for path in clips.iterdir() if not path.name.startswith(".")]
     short = [spec("short")]
     render_missing(short, {"pepper": pepper}, clips, workers=1)
     assert sorted(path.suffix for path in clips.iterdir()) == [".json", ".mp4"]
 
 
-def test_a_contact_sheet_shows_every_clip(
-    rendered: tuple[Manifest, Path, list[Progress]], tmp_path: Path
-) -> None:
+def test_a_contact_sheet_shows_every_clip(rendered: Rendered, tmp_path: Path) -> None:
     from PIL import Image
 
     manifest, folder, _ = rendered

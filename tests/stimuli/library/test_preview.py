@@ -12,7 +12,7 @@ from PIL import Image
 
 from stimuli.curves import curves
 from stimuli.errors import InputError
-from stimuli.library import render_missing
+from stimuli.library import Progress
 from stimuli.manifest import Manifest
 from stimuli.motion import generate
 from stimuli.preview import draw_preview
@@ -20,12 +20,9 @@ from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec
 
 
-@pytest.fixture(scope="module")
-def clips(
-    study: list[StimulusSpec], pepper: Robot, tmp_path_factory: pytest.TempPathFactory
-) -> tuple[Manifest, Path]:
-    folder = tmp_path_factory.mktemp("clips")
-    return render_missing(study, {"pepper": pepper}, folder, workers=1), folder
+@pytest.fixture
+def clips(rendered: tuple[Manifest, Path, list[Progress]]) -> tuple[Manifest, Path]:
+    return rendered[:2]
 
 
 def test_a_preview_of_all_is_a_contact_sheet_and_a_table(

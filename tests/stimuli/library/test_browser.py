@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
 
-from stimuli.video import write_video
+from stimuli.filming import render_clip
+from stimuli.robots.model import Robot
+from stimuli.spec import StimulusSpec
+
+MakeSpec = Callable[..., StimulusSpec]
 
 pytestmark = pytest.mark.xdist_group("browser")
 
@@ -28,9 +32,8 @@ PLAY = """
 """
 
 
-def test_a_browser_plays_a_clip_to_its_end(tmp_path: Path) -> None:
-    ramp = [np.full((48, 64, 3), level, np.uint8) for level in range(0, 240, 10)]
-    write_video(tmp_path / "clip.mp4", ramp, fps=30)
+def test_a_browser_plays_a_rendered_clip_to_its_end(spec: MakeSpec, pepper: Robot, tmp_path: Path) -> None:
+    clip = render_clip(spec("nod"), pepper, tmp_path)
     (tmp_path / "page.html").write_text("<!doctype html><title>clip</title>")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
@@ -39,8 +42,8 @@ def test_a_browser_plays_a_clip_to_its_end(tmp_path: Path) -> None:
         )
         page = browser.new_page()
         page.goto((tmp_path / "page.html").as_uri())
-        seen = page.evaluate(PLAY, (tmp_path / "clip.mp4").as_uri())
+        seen = page.evaluate(PLAY, (tmp_path / clip.file).as_uri())
         browser.close()
-    assert (seen["width"], seen["height"]) == (64, 48)
-    assert seen["duration"] == pytest.approx(24 / 30, abs=1e-3)
-    assert seen["at"] == pytest.approx(24 / 30, abs=1e-3)
+    assert (seen["width"], seen["height"]) == (clip.width, clip.height)
+    assert seen["duration"] == pytest.approx(clip.duration_s, abs=1e-3)
+    assert seen["at"] == pytest.approx(clip.duration_s, abs=1e-3)
