@@ -13,7 +13,17 @@ from analysis.pages import Pages
 from analysis.plan import Levels, Outcome, Targets
 from analysis.results import Provenance, Results
 from analysis.threats import threats
-from analysis.words import claim, labels_of, method, sentences, summary, warnings
+from analysis.words import (
+    MISSING,
+    assumptions,
+    claim,
+    labels_of,
+    left_out,
+    method,
+    sentences,
+    summary,
+    warnings,
+)
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -37,6 +47,7 @@ def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mappin
             pages.write(warning, colour=ALARM)
         pages.heading("Participants")
         pages.draw(drawings["participants"])
+        pages.write(f"{MISSING} {left_out(results.further, findings)}")
         for name, outcome in findings.outcomes.items():
             pages.heading(f"{name}: {claim(protocol, name, outcome)}")
             _outcome(pages, outcome, drawings, labels)
@@ -58,7 +69,7 @@ def _outcome(
     pages.write(
         f"The same test as {outcome.mirrors} seen from the other side: printed, not counted again."
         if isinstance(outcome, Levels) and mirrored
-        else method(outcome),
+        else f"{method(outcome)} {assumptions(outcome)}",
         with_next=True,
     )
     if not mirrored:

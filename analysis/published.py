@@ -223,7 +223,8 @@ def _recompute(rows: Sequence[PrintedRow], n: int, printed: PrintedTable) -> Ite
         if len(pair) != 2:
             continue
         if printed.kind == "means" and all(row.sd is not None for row in pair):
-            yield Recomputed(name, None, student_t_of(*(_moments(row, n) for row in pair), "greater"), None)
+            first, second = (_moments(row, n) for row in pair)
+            yield Recomputed(name, None, student_t_of(first, second, "greater"), None)
         elif printed.whole and all(len(row.cells) == 2 for row in pair):
             counts = [_counts(row, n) for row in pair]
             if counts[0] and counts[1]:

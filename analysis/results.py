@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from analysis.assumptions import relaxed
 from analysis.chance import DEFINITIONS
 from analysis.description import described
 from analysis.further import SEED, Further
@@ -115,6 +116,9 @@ class Results:
                     }
                     for ties, counts in further.confusions[name].items()
                 }
+        for outcome in outcomes.values():
+            if without := [*relaxed(outcome)]:
+                content[outcome.name]["without_assumptions"] = without
         content["before_exclusions"] = {
             name: {key: one.verdict for key, one in outcome.results.items()}
             for name, outcome in further.before.items()

@@ -6,14 +6,14 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 
-from analysis.apa import degrees, interval, number, probability, share, significance
+from analysis.apa import degrees, interval, number, probability, share, significance, unbroken
 from analysis.levels import Choices, Compared
 from analysis.plan import Levels, Targets
 
 SPECIAL = {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_",
     "{": r"\{", "}": r"\}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-    "<": "$<$", ">": "$>$", "−": "$-$", "∞": r"$\infty$", "–": "--", "“": "``", "”": "''",
+    "<": "$<$", ">": "$>$", "−": "$-$", "∞": r"$\infty$", "–": "--", "“": "``", "”": "''", "\u00a0": "~",
 }  # fmt: skip
 
 
@@ -69,7 +69,7 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
         r"  \end{tabular}",
         rf"  \caption{{{noted(note)}"
         r"Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
-        rf"perceived intensity ($I_P$), with counts. {escaped(confusion_note(outcome))}}}",
+        rf"perceived intensity ($I_P$), with counts. {escaped(unbroken(confusion_note(outcome)))}}}",
         rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
     ]

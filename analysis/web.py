@@ -15,7 +15,17 @@ from analysis.glossary import GLOSSARY
 from analysis.plan import Levels, Preferences, Targets
 from analysis.results import Results
 from analysis.threats import threats
-from analysis.words import claim, labels_of, method, sentences, summary, warnings
+from analysis.words import (
+    MISSING,
+    assumptions,
+    claim,
+    labels_of,
+    left_out,
+    method,
+    sentences,
+    summary,
+    warnings,
+)
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -58,6 +68,9 @@ def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) 
         preferences=[outcome for outcome in outcomes.values() if isinstance(outcome, Preferences)],
         levels=[outcome for outcome in outcomes.values() if isinstance(outcome, Levels)],
         methods={name: method(outcome) for name, outcome in outcomes.items()},
+        assumptions={name: assumptions(outcome) for name, outcome in outcomes.items()},
+        missing=MISSING,
+        left_out=left_out(results.further, findings),
         sentences={name: sentences(outcome) for name, outcome in outcomes.items()},
         summary=[summary(name, outcome) for name, outcome in outcomes.items()],
         warnings=warnings(findings),

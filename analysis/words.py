@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from analysis import apa
+from analysis.assumptions import relaxed
+from analysis.further import Further
 from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Outcome, Preferences, Targets
 from analysis.preference import Preferred
@@ -68,6 +70,21 @@ def _preferred(one: Preferred, judging: Judging) -> str:
     return f"{test.k} of {test.n} preferred {compared.first} to {compared.second} ({share}), {p}"
 
 
+MISSING = (
+    "A missing answer is left out of each test it concerns; paired tests use complete pairs, by participant."
+)
+
+
+def left_out(further: Further, findings: Findings) -> str:
+    """What leaving participants out changed; empty where nobody was."""
+    if not findings.flow.excluded:
+        return ""
+    changed = [f"{name} {key}" for name, key in further.changed(findings)]
+    if changed:
+        return f"Leaving participants out changed the decision for {', '.join(changed)}."
+    return "Leaving participants out changed no decision."
+
+
 def summary(name: str, outcome: Outcome) -> str:
     """What was found, in one line."""
     found = [key for key, one in outcome.results.items() if one.verdict.significant]
@@ -89,6 +106,7 @@ def warnings(findings: Findings) -> list[str]:
     for name, outcome in findings.outcomes.items():
         if isinstance(outcome, Targets):
             said += _depends(name, outcome)
+        said += _assumes(name, outcome)
         undefined = {key: one.verdict for key, one in outcome.results.items() if one.verdict.note}
         for reason in dict.fromkeys(verdict.note for verdict in undefined.values()):
             which = ", ".join(key for key, verdict in undefined.items() if verdict.note == reason)
@@ -109,6 +127,26 @@ def _depends(name: str, outcome: Targets) -> Iterator[str]:
     if turned:
         which = "; ".join(f"{meaning}: {', '.join(stimuli)}" for meaning, stimuli in turned.items())
         yield f"{name}: the decision depends on the definition of chance. Decided otherwise: {which}."
+
+
+def _assumes(name: str, outcome: Outcome) -> Iterator[str]:
+    """Which decisions rest on an assumption of the declared test."""
+    turned = [one for one in relaxed(outcome) if one.otherwise]
+    if turned:
+        which = "; ".join(
+            f"by {one.test}, not assuming {one.assumes}: {', '.join(one.otherwise)}" for one in turned
+        )
+        yield f"{name}: the decision depends on the test. Decided otherwise: {which}."
+
+
+def assumptions(outcome: Outcome) -> str:
+    """What the declared test assumes, and what tests without it decide; empty for exact tests."""
+    found = [
+        f"{one.assumes} ({one.test}: "
+        + (f"otherwise for {', '.join(one.otherwise)})" if one.otherwise else "the same)")
+        for one in relaxed(outcome)
+    ]
+    return f"Assumed, and decided by tests without: {'; '.join(found)}." if found else ""
 
 
 def claim(protocol: Protocol, name: str, outcome: Outcome) -> str:
