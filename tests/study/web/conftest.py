@@ -4,6 +4,7 @@ import hashlib
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from uuid import uuid4
 
 import av
 import numpy as np
@@ -182,6 +183,19 @@ class Visit:
         self.page.get_by_role("button", name="Start").click()
         self.consent()
 
+    def skip_to(self, page: int) -> None:
+        """Come to a page of the study without a look at those before, which have nothing that must be answered."""
+        server = self.page.context.request
+        server.post(f"{self.address}/start")
+        server.post(f"{self.address}/consent", form={"agreed": "yes", "language": "en"})
+        blank = {"answers": [{"item": item, "value": ""} for item in ("age", "gender")]}
+        before = [{"step": "demographics"} | blank, {"step": "instructions:practice"}]
+        for answered in before[: page - 1]:
+            content = {"id": str(uuid4()), "on_page_ms": 1} | answered
+            assert server.post(f"{self.address}/study/answers", data=content).ok
+        self.page.goto(f"{self.address}/study")
+        expect(self.page.locator(".way label")).to_contain_text(f"Page {page} of")
+
     def consent(self) -> None:
         """Agree, and come to the first page."""
         self.page.get_by_role("checkbox").check()
@@ -231,19 +245,25 @@ RULES = {
 class Inspector:
     """Somebody who looks at pages and keeps what is wrong with them."""
 
+    WIDTHS = (1280, 820, 390)  # of a desk, a tablet and a phone
+
     def __init__(self, page: Page) -> None:
         self.page = page
         self.faults: list[str] = []
 
     def look(self) -> None:
-        """Run axe-core, and see that nothing hangs over the edge."""
+        """Run axe-core, and see that nothing hangs over the edge of a large, a middling and a small screen."""
         found = Axe().run(self.page, options=RULES).response["violations"]
         here = f"{self.page.url} {self.page.locator('h1').inner_text()}"
         self.faults += [
             f"{here}: {fault['id']}: {node['html']}" for fault in found for node in fault["nodes"]
         ]
-        if self.page.evaluate("document.documentElement.scrollWidth > innerWidth"):
-            self.faults.append(f"{here}: wider than the screen")
+        size = self.page.viewport_size
+        for width in self.WIDTHS:
+            self.page.set_viewport_size(size | {"width": width})
+            if self.page.evaluate("document.documentElement.scrollWidth > innerWidth"):
+                self.faults.append(f"{here}: wider than {width} px")
+        self.page.set_viewport_size(size)
 
     def visit(self, address: str) -> None:
         """Go there and look."""

@@ -13,7 +13,7 @@ from study.export import responses_csv
 from study.protocol import Protocol, load_protocol
 from study.web.site import Site
 
-pytestmark = pytest.mark.xdist_group("browser")
+pytestmark = pytest.mark.xdist_group("pages")
 
 ASKING = """
 study: asking
@@ -73,7 +73,6 @@ def begin(page: Page, address: str, experience: str) -> None:
     expect(page.get_by_label("in a hurry")).to_be_enabled()
 
 
-@pytest.mark.parametrize("page", ["wide", "narrow"], indirect=True)
 def test_sliders_ranks_and_checks_by_keyboard(page: Page, inspector, address: str, site: Site) -> None:
     begin(page, address, "never")
     page.get_by_role("button", name="Continue", exact=True).click()
@@ -95,7 +94,9 @@ def test_sliders_ranks_and_checks_by_keyboard(page: Page, inspector, address: st
     for row in page.get_by_role("radiogroup", name="Please rate").all():
         row.get_by_role("radio").nth(4).check()
     page.get_by_label("What did you think?").fill("=1+1")
-    inspector.look()
+    for width in inspector.WIDTHS:
+        page.set_viewport_size({"width": width, "height": 844})
+        inspector.look()
     assert inspector.faults == []
     proceed(page)
     expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()

@@ -15,7 +15,7 @@ from study.web.app import create_app
 from study.web.server import running
 from study.web.site import Site
 
-pytestmark = pytest.mark.xdist_group("browser")
+pytestmark = pytest.mark.xdist_group("pages")
 PASSWORD = "correct horse"  # as in the fixture `site`
 
 

@@ -7,7 +7,7 @@ from playwright.sync_api import Page, Route, expect
 
 from study.web.site import Site
 
-pytestmark = pytest.mark.xdist_group("browser")
+pytestmark = pytest.mark.xdist_group("pages")
 
 
 def stored(site: Site) -> list[dict[str, str]]:
@@ -17,7 +17,7 @@ def stored(site: Site) -> list[dict[str, str]]:
 
 
 def test_answers_given_without_a_network_arrive_when_it_is_back(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     page.context.set_offline(True)
     page.get_by_label("How old are you?").fill("34")
     visit.press_continue()
@@ -28,7 +28,7 @@ def test_answers_given_without_a_network_arrive_when_it_is_back(visit, page: Pag
 
 
 def test_a_server_that_fails_for_a_while_is_asked_again(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     failures = [503, 429]
     page.context.route(
         "**/study/answers",
@@ -41,7 +41,7 @@ def test_a_server_that_fails_for_a_while_is_asked_again(visit, page: Page, site:
 
 
 def test_what_refuses_answers_on_their_way_is_said_and_loses_none(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     faults = [(200, "Log in to the hotel's network"), (413, "Too large for this proxy")]
 
     def in_between(route: Route) -> None:
@@ -59,14 +59,14 @@ def test_what_refuses_answers_on_their_way_is_said_and_loses_none(visit, page: P
 
 
 def test_a_double_click_answers_once(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     page.get_by_role("button", name="Continue", exact=True).dblclick()
     expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
     assert len(stored(site)) == 1
 
 
 def test_answers_survive_closing_the_browser_before_they_were_sent(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     page.context.route("**/study/answers", lambda route: route.abort())
     page.get_by_label("How old are you?").fill("51")
     visit.press_continue()
@@ -80,7 +80,7 @@ def test_answers_survive_closing_the_browser_before_they_were_sent(visit, page: 
 
 
 def test_an_acknowledgement_that_got_lost_does_no_harm(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     lost = [True]
 
     def lose_the_first(route) -> None:
@@ -98,7 +98,7 @@ def test_an_acknowledgement_that_got_lost_does_no_harm(visit, page: Page, site: 
 
 
 def test_a_page_whose_script_does_not_come_says_so(visit, page: Page, site: Site) -> None:
-    visit.begin()
+    visit.skip_to(1)
     late = page.get_by_text("This page has not loaded completely")
     expect(late).to_have_count(0)
     page.context.route("**/page.js", lambda route: route.abort())

@@ -37,8 +37,7 @@ def hasty(page: Page) -> None:
 
 
 def come_to_the_practice(visit) -> None:
-    visit.begin()
-    visit.proceed(2)
+    visit.skip_to(3)
 
 
 def view_sent(visit, site: Site) -> View:

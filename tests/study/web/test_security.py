@@ -88,7 +88,9 @@ def test_behind_a_proxy_cookies_are_secure_and_allowances_are_each_visitor_s(sit
         started = httpx.post(f"{address}/start", headers=FORWARDED | {"Host": "study.example"})
         assert "secure" in started.headers["set-cookie"].lower()
         assert "secure" not in httpx.post(f"{address}/start").headers["set-cookie"].lower()
-        guesses = (httpx.post(f"{address}/code", data={"code": "wrong"}, headers=FORWARDED) for _ in range(30))
+        guesses = (
+            httpx.post(f"{address}/code", data={"code": "wrong"}, headers=FORWARDED) for _ in range(30)
+        )
         assert 429 in (guess.status_code for guess in guesses)
         assert httpx.post(f"{address}/code", data={"code": "wrong"}).status_code == 404
 

@@ -11,9 +11,11 @@ from uuid import uuid4
 
 import httpx
 import pytest
+from typer.testing import CliRunner
 
 from stimuli.manifest import Clip as Rendered
 from stimuli.manifest import Manifest
+from study.cli import app
 from study.export import rows
 from study.protocol import load_protocol
 from study.simulation import PAGE
@@ -156,6 +158,30 @@ def test_whoever_began_before_finishes_the_study_they_began(
     assert {row["stimulus_sha256"] for row in before if row["stimulus"] == "joy"} == {"first-joy"}
     assert {row["stimulus_sha256"] for row in after if row["stimulus"] == "joy"} == {"amended-joy"}
     assert [row.state for row in overview(amended).rows] == ["completed", "completed"]
+    _exported_and_analysed(first, amended)
+
+
+def _exported_and_analysed(first: Site, amended: Site) -> None:
+    """`study export` and `study analyse` take both versions together, and the codebook explains both."""
+    folder, out = amended.protocol.folder, amended.protocol.folder / "export"
+    (folder / "stimuli").mkdir()
+    manifest(amended.clips, "amended").save(folder / "stimuli")
+    for command in (
+        ["export", folder, "--data", folder.parent / "data", "--out", out],
+        ["analyse", out / "responses.csv", "--protocol", folder, "--out", out],
+    ):
+        done = CliRunner().invoke(app, [str(word) for word in command], catch_exceptions=False)
+        assert done.exit_code == 0, done.output
+    book = json.loads((out / "responses.codebook.json").read_text(encoding="utf-8"))
+    assert [change["reason"] for change in book["amendments"]] == ["More to rate"]
+    (earlier,) = book["earlier"].items()
+    assert earlier[0] == first.protocol.sha256 and earlier[1]["demographics"] and not book["demographics"]
+    asked = [
+        {item["item"] for item in version["parts"]["recognition"]["items"]} for version in (earlier[1], book)
+    ]
+    assert asked[1] - asked[0] == {"pride", "remark"}
+    results = json.loads((out / "results.json").read_text(encoding="utf-8"))
+    assert results["participants"]["n"] == 2 and results["participants"]["excluded"] == []
 
 
 def test_where_no_copy_is_kept_they_are_told_and_nothing_is_lost(begun: Visitor, amended: Site) -> None:
