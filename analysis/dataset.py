@@ -99,6 +99,7 @@ class Responses:
     median_rt_s: FloatArray | None = None  # (participants,) time per answer
     kind: Kind = "participant"
     open: tuple[OpenAnswers, ...] = ()
+    earlier: Mapping[str, str] = field(default_factory=dict)  # participant → version, before amendments
     answered: tuple[str, str] | None = None  # first and last moment of an answer, where the file says them
 
     @property

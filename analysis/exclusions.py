@@ -73,13 +73,22 @@ def _nobody(responses: Responses) -> NDArray[np.bool_]:
 
 
 def _incomplete(responses: Responses) -> NDArray[np.bool_]:
-    """Participants who left an item of a stimulus they were to see unanswered, (participants,)."""
+    """Participants who left an item of a stimulus they were to see unanswered, (participants,).
+
+    An earlier version of the study asked what somebody who took part in it answered.
+    """
     unfinished = _nobody(responses)
-    for question in responses.questions:
-        there = question.codes >= 0
-        shown = len(question.stimuli) if question.shown is None else question.shown
-        spared = question.optional & ~there.any(axis=(1, 2))
-        unfinished |= (there.all(axis=2).sum(axis=1) < shown) & ~spared
+    began_with = np.array([responses.earlier.get(name, "") for name in responses.participants])
+    for version in np.unique(began_with):
+        mine = began_with == version
+        for question in responses.questions:
+            there = question.codes[mine] >= 0
+            asked = there.any(axis=0) if version else np.ones(there.shape[1:], dtype=bool)  # stimuli, items
+            judged = asked.any(axis=1)
+            finished = (there | ~asked).all(axis=2)[:, judged].sum(axis=1)
+            shown = judged.sum() if question.shown is None else min(question.shown, judged.sum())
+            spared = question.optional & ~there.any(axis=(1, 2))
+            unfinished[mine] |= (finished < shown) & ~spared
     return unfinished
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from platform import python_version
@@ -51,8 +52,8 @@ def analyse(
     says where the file calls a column otherwise. Raises ResponsesError where the file cannot be read without
     guessing, PlanError where the plan does not fit the study.
     """
-    with of_one_study(csv, protocol):
-        responses = read_responses(csv, protocol, columns)
+    with of_one_study(csv, protocol) as earlier:
+        responses = replace(read_responses(csv, protocol, columns), earlier=earlier)
     findings = carry_out(responses, protocol)
     provenance = Provenance(
         study=protocol.study,

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from analysis.columns import read_columns
 from analysis.fields import ResponsesError, read_header
@@ -15,16 +17,18 @@ if TYPE_CHECKING:
     from study.protocol import Protocol
 
 COLUMN = "protocol_sha256"
+PARTICIPANT = "participant"
 
 
 @contextmanager
-def of_one_study(path: Path, protocol: Protocol) -> Iterator[None]:
+def of_one_study(path: Path, protocol: Protocol) -> Iterator[Mapping[str, str]]:
     """Read a file, all of whose rows belong to the protocol or to what its amendments replace.
 
-    A table of another program does not say which version its rows have, and is taken as it is.
+    Gives the version of each participant who took part in an earlier one. A table of another program does not
+    say which version its rows have, and is taken as it is.
     """
     if COLUMN not in read_header(path):
-        yield
+        yield {}
         return
     hashes = sorted({*read_columns(path, [COLUMN])[COLUMN].values} - {protocol.sha256, ""})
     strange = [sha256 for sha256 in hashes if not protocol.continues(sha256)]
@@ -35,7 +39,7 @@ def of_one_study(path: Path, protocol: Protocol) -> Iterator[None]:
             f"under `amendments` with `replaces: {strange[0][:SHORT]}`"
         )
     try:
-        yield
+        yield _earlier(path, hashes)
     except ResponsesError as error:
         if not hashes:
             raise
@@ -43,6 +47,17 @@ def of_one_study(path: Path, protocol: Protocol) -> Iterator[None]:
             f"{error}\nSome rows were gathered before an amendment, with {_named(hashes)}. "
             f"Where they do not fit this version: {_apart(hashes[0])}"
         ) from error
+
+
+def _earlier(path: Path, hashes: list[str]) -> dict[str, str]:
+    """Each participant of an earlier version, with its hash."""
+    if not hashes or PARTICIPANT not in read_header(path):
+        return {}
+    columns = read_columns(path, [PARTICIPANT, COLUMN])
+    people, versions = columns[PARTICIPANT], columns[COLUMN]
+    pairs = np.unique(np.stack([people.codes, versions.codes]), axis=1).T
+    began = {people.values[person]: versions.values[version] for person, version in pairs}
+    return {person: version for person, version in began.items() if version in hashes}
 
 
 def _named(hashes: list[str]) -> str:

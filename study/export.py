@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
@@ -38,7 +38,7 @@ COLUMNS = {
     "answered_at": "When the server stored the answer, UTC.",
     "seed": "Seed of this participant's orders.",
     "stimulus_sha256": "Hash of the clip's file (of a pair, both); leads to its parameters in manifest.json.",
-    "protocol_sha256": "Hash of the protocol this participant took part in.",
+    "protocol_sha256": "Hash of the protocol this participant took part in; the codebook has its questions.",
     "session": "'participant', or 'test' or 'simulated', which are no data.",
     "left": "Of a pair: the clip on the left (on narrow screens above). Empty otherwise.",
 }
@@ -123,8 +123,10 @@ def guarded(response: str) -> str:
     return response
 
 
-def codebook(protocol: Protocol, *, kind: Kind = "participant") -> dict[str, Any]:
-    """What the columns, items and values of the table mean."""
+def codebook(
+    protocol: Protocol, *, kind: Kind = "participant", earlier: Iterable[Protocol] = ()
+) -> dict[str, Any]:
+    """What the columns, items and values of the table mean, now and before amendments."""
     return {
         "study": protocol.study,
         "title": protocol.title.root,
@@ -132,20 +134,26 @@ def codebook(protocol: Protocol, *, kind: Kind = "participant") -> dict[str, Any
         "session": kind,
         "is_data": kind == "participant",
         "columns": COLUMNS,
-        "parts": {
-            part.id: {
-                "title": str(part.title),
-                "stimuli": list(part.stimuli),
-                "references": dict(part.references),
-                "pairs": {pair: list(two) for pair, two in part.pairs.items()},
-                "items": _items(part.questions),
-            }
-            for part in protocol.parts.values()
-        },
-        "demographics": _items(protocol.demographics),
+        **_asked(protocol),
         "amendments": [amendment.model_dump(mode="json") for amendment in protocol.amendments],
+        "earlier": {before.sha256: _asked(before) for before in earlier},
         "left out": "Practice trials.",
     }
+
+
+def _asked(protocol: Protocol) -> dict[str, Any]:
+    """What one version of a protocol shows and asks."""
+    parts = {
+        part.id: {
+            "title": str(part.title),
+            "stimuli": list(part.stimuli),
+            "references": dict(part.references),
+            "pairs": {pair: list(two) for pair, two in part.pairs.items()},
+            "items": _items(part.questions),
+        }
+        for part in protocol.parts.values()
+    }
+    return {"parts": parts, "demographics": _items(protocol.demographics)}
 
 
 def export_responses(
@@ -155,13 +163,17 @@ def export_responses(
     *,
     kind: Kind = "participant",
     clips: ClipHashes | None = None,
+    earlier: Iterable[Protocol] = (),
 ) -> Path:
-    """Write responses.csv and its codebook into a folder; gives the path of the table."""
+    """Write responses.csv and its codebook into a folder; gives the path of the table.
+
+    `earlier` are the versions of the protocol that participants began with before amendments.
+    """
     out.mkdir(parents=True, exist_ok=True)
     table = out / "responses.csv"
     with table.open("w", encoding="utf-8", newline="") as file:
         file.write(responses_csv(store, kind=kind, clips=clips))
-    book = json.dumps(codebook(protocol, kind=kind), indent=2, ensure_ascii=False)
+    book = json.dumps(codebook(protocol, kind=kind, earlier=earlier), indent=2, ensure_ascii=False)
     (out / "responses.codebook.json").write_text(book + "\n", encoding="utf-8")
     return table
 

@@ -171,10 +171,12 @@ def export(
             "--data names another folder"
         )
     store = open_store(database or f"sqlite:///{file}")
-    manifests = {protocol.sha256: Manifest.load(folder)}
-    manifests |= {version.sha256: version.manifest for version in earlier_versions(protocol, kept)}
+    earlier = list(earlier_versions(protocol, kept))
+    manifests = {version.sha256: version.manifest for version in earlier}
+    manifests[protocol.sha256] = Manifest.load(folder)
     files = {sha256: hashes(clips_of(manifest, folder)) for sha256, manifest in manifests.items()}
-    table = export_responses(store, protocol, out, clips=files)
+    before = [version.protocol for version in earlier]
+    table = export_responses(store, protocol, out, clips=files, earlier=before)
     store.close()
     dataset = write_dataset(protocol, table, out / "psych-ds")
     console.print(f"{table} and its codebook are written, and as a Psych-DS dataset {dataset}.")

@@ -191,7 +191,9 @@ def download_codebook(request: Request) -> Response:
     """What the table's columns and values mean."""
     require_login(request)
     site = site_of(request)
-    content = json.dumps(codebook(site.protocol, kind=site.kind), indent=2, ensure_ascii=False)
+    earlier = [before.protocol for before in site.earlier.values()]
+    book = codebook(site.protocol, kind=site.kind, earlier=earlier)
+    content = json.dumps(book, indent=2, ensure_ascii=False)
     return _download(content, "application/json", "responses.codebook.json")
 
 
