@@ -15,7 +15,7 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 from study.protocol import Protocol, load_protocol
 from study.storage import open_store
 from study.web.app import create_app
-from study.web.credentials import Passwords, new_credentials
+from study.web.credentials import Credentials, Passwords, new_credentials
 from study.web.server import running
 from study.web.site import Clip, Site
 
@@ -122,10 +122,18 @@ def clips(protocol: Protocol, video_folder: Path) -> dict[str, Clip]:
     return made
 
 
+@pytest.fixture(scope="session")
+def credentials() -> Credentials:
+    """Made once: passwords are hashed slowly."""
+    return new_credentials(Passwords(PASSWORD, VIEWER))
+
+
 @pytest.fixture
-def site(protocol: Protocol, clips: dict[str, Clip], tmp_path: Path) -> Iterator[Site]:
+def site(
+    protocol: Protocol, clips: dict[str, Clip], credentials: Credentials, tmp_path: Path
+) -> Iterator[Site]:
     store = open_store(f"sqlite:///{tmp_path}/data/study.db")
-    yield Site(protocol, store, clips, new_credentials(Passwords(PASSWORD, VIEWER)), "software 1")
+    yield Site(protocol, store, clips, credentials, "software 1")
     store.close()
 
 
@@ -184,7 +192,7 @@ class Visit:
         self.consent()
 
     def skip_to(self, page: int) -> None:
-        """Come to a page of the study without a look at those before, which have nothing that must be answered."""
+        """Come to a page of the study without a look at those before, where nothing must be answered."""
         server = self.page.context.request
         server.post(f"{self.address}/start")
         server.post(f"{self.address}/consent", form={"agreed": "yes", "language": "en"})
@@ -252,7 +260,7 @@ class Inspector:
         self.faults: list[str] = []
 
     def look(self) -> None:
-        """Run axe-core, and see that nothing hangs over the edge of a large, a middling and a small screen."""
+        """Run axe-core, and see that nothing hangs over the edge of any screen."""
         found = Axe().run(self.page, options=RULES).response["violations"]
         here = f"{self.page.url} {self.page.locator('h1').inner_text()}"
         self.faults += [

@@ -104,6 +104,8 @@ def test_a_page_whose_script_does_not_come_says_so(visit, page: Page, site: Site
     page.context.route("**/page.js", lambda route: route.abort())
     visit.press_continue()
     expect(page.get_by_role("heading", name="Before we start")).to_be_visible()
+    expect(late).to_be_hidden()
+    page.evaluate("document.getAnimations().forEach((wait) => wait.finish())")  # as some seconds later
     expect(late).to_be_visible()
     page.context.unroute("**/page.js")
     page.reload()
