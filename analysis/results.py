@@ -170,7 +170,7 @@ def t_json(result: TTest, verdict: Verdict | None = None) -> Json:
 
 def _summary(summary: Moments) -> Json:
     content: Json = asdict(summary)
-    return content if summary.se is not None else content | {"reason": f"{summary.n} values"}
+    return content if summary.se is not None else content | {"reason": f"undefined: n = {summary.n}"}
 
 
 def _recognised(one: Recognised, outcome: Targets) -> Json:

@@ -28,7 +28,7 @@ def one_sample_t(values: ArrayLike, null: float, alternative: Alternative = "two
         TTest, METHOD, n=(sample.n,), estimate=sample.mean, null=null, alternative=alternative
     )
     if sample.mean is None or sample.sd is None or sample.se is None:
-        return undefined(reason=f"undefined: {sample.n} values, a t-test needs 2")
+        return undefined(reason=f"undefined: n = {sample.n}, a t-test needs 2 values")
     if sample.sd == 0:
         return undefined(reason=f"undefined: zero variance, every value is {sample.mean:g}", df=sample.n - 1)
     contrast = Contrast(estimate=sample.mean, se=sample.se, df=sample.n - 1, sd=sample.sd, n=(sample.n,))

@@ -37,7 +37,7 @@ def student_t_of(a: Moments, b: Moments, alternative: Alternative = "two-sided")
     n = (a.n, b.n)
     undefined = partial(TTest, METHOD, n=n, null=0.0, alternative=alternative)
     if a.mean is None or b.mean is None or a.n + b.n < 3:
-        return undefined(reason=f"undefined: {a.n} and {b.n} values, too few for a t-test")
+        return undefined(reason=f"undefined: n = {a.n} and {b.n}, too few for a t-test")
     df = a.n + b.n - 2
     estimate = a.mean - b.mean
     pooled = sqrt(((a.n - 1) * (a.sd or 0) ** 2 + (b.n - 1) * (b.sd or 0) ** 2) / df)

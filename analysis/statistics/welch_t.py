@@ -31,7 +31,7 @@ def welch_t(first: ArrayLike, second: ArrayLike, alternative: Alternative = "two
     n = (a.n, b.n)
     undefined = partial(TTest, METHOD, n=n, null=0.0, alternative=alternative)
     if a.mean is None or b.mean is None or a.sd is None or b.sd is None or a.se is None or b.se is None:
-        return undefined(reason=f"undefined: {a.n} and {b.n} values, Welch's test needs 2 in each group")
+        return undefined(reason=f"undefined: n = {a.n} and {b.n}, Welch's test needs 2 values in each group")
     estimate = a.mean - b.mean
     if a.sd == b.sd == 0:
         return undefined(reason="undefined: zero variance in both groups", estimate=estimate)

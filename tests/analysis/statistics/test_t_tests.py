@@ -132,8 +132,8 @@ def test_one_constant_group_is_no_obstacle() -> None:
 @pytest.mark.parametrize(
     ("values", "reason"),
     [
-        ([], "undefined: 0 values, a t-test needs 2"),
-        ([np.nan, 4], "undefined: 1 values, a t-test needs 2"),
+        ([], "undefined: n = 0, a t-test needs 2 values"),
+        ([np.nan, 4], "undefined: n = 1, a t-test needs 2 values"),
         ([5, 5, 5], "undefined: zero variance, every value is 5"),
         ([0.1] * 10, "undefined: zero variance, every value is 0.1"),
     ],
