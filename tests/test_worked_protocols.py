@@ -11,7 +11,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from analysis.dataset import read_responses
+from analysis.plan import carry_out
 from study.cli import app
+from study.protocol import load_protocol
+from study.simulation import rehearse
 
 PROTOCOLS = Path(__file__).parent.parent / "protocols"
 TINY = "video: {size: 64x36, fps: 4, camera: full_body, lead_in: 0 s, hold: 0 s}\n"
@@ -96,3 +100,18 @@ def test_online_participants_are_checked_spared_and_compared(gone_through: Path)
         for one in found["participants"]["excluded"]
     )
     assert found["hurry"]["hurried"]["paired"]["n"] == found["participants"]["n"]
+
+
+def test_the_papers_own_study_is_taken_and_tested_as_it_stands(tmp_path: Path) -> None:
+    protocol = load_protocol(PROTOCOLS / "hielscher2025")  # clips need not be rendered to be rated
+    table = rehearse(protocol, 6, tmp_path, shares={"attentive": 1.0})
+    responses = read_responses(table, protocol)
+    assert {(question.part, question.codes.shape) for question in responses.questions} == {
+        ("recognition", (6, 6, 6)),
+        ("intensity", (6, 12, 1)),
+    }
+    assert all((question.codes >= 0).all() for question in responses.questions)
+    outcomes = carry_out(responses, protocol).outcomes
+    assert list(outcomes) == ["H1", "H2.1", "H2.2"]
+    assert set(outcomes["H1"].results) == set(protocol.modulations)
+    assert set(outcomes["H2.1"].results) == set(outcomes["H2.2"].results) == set(protocol.levels)
