@@ -13,7 +13,7 @@ import math
 import random
 import re
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass
@@ -22,6 +22,7 @@ from typing import Any
 from urllib.parse import urlencode, urlsplit
 from uuid import UUID
 
+from stimuli.errors import InputError, nearest
 from study.chance import Stream
 from study.export import export_responses
 from study.protocol import Pair, Protocol, Stimulus
@@ -66,6 +67,14 @@ USUAL = {  # shares
     "speeder": 0.02,
 }
 EASE = (0.3, 1.3)  # times the manner's effect: some stimuli are hard to read and others plain
+
+
+def crowd_of(manners: Sequence[str]) -> Mapping[str, float]:
+    """Equal shares of these manners; the usual crowd where none is named."""
+    for name in manners:
+        if name not in MANNERS:
+            raise InputError(f"{name!r} is no manner of answering: {nearest(name, MANNERS)}")
+    return dict.fromkeys(manners, 1.0) or USUAL
 
 
 def rehearse(

@@ -128,17 +128,26 @@ def rehearse(
     n: Annotated[int, typer.Option("-n", min=1, help="Simulated participants.")] = 34,
     out: Out = Path("rehearsal"),
     clips: Clips = None,
+    manner: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="How all answer, once or more: attentive, unsure, random clicker, yea-sayer, speeder, "
+            "dropout. Unless told, most are attentive."
+        ),
+    ] = None,
 ) -> None:
     """Let simulated participants take the whole study over HTTP, then analyse what they left."""
     from analysis.report import analyse as analyse_responses
     from stimuli.manifest import Manifest
+    from study.simulation import crowd_of
     from study.simulation import rehearse as let_them_come
     from study.web.site import clips_of
 
-    protocol = load(path)
+    protocol, shares = load(path), crowd_of(manner or ())
     folder = clips or protocol.folder / "stimuli"
+    shown = clips_of(Manifest.load(folder), folder)
     with console.status(f"{n} simulated participants take the study …"):
-        table = let_them_come(protocol, n, out, clips=clips_of(Manifest.load(folder), folder))
+        table = let_them_come(protocol, n, out, clips=shown, shares=shares)
     analyse_responses(table, protocol, out)
     console.print(
         f"{n} [bold]simulated[/] participants (no data) took the study. The report: {out / 'report.html'}"

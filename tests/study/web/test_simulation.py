@@ -7,9 +7,12 @@ from collections import Counter
 from pathlib import Path
 from statistics import fmean
 
+import pytest
+
+from stimuli.errors import InputError
 from study.export import guarded
 from study.protocol import Protocol
-from study.simulation import MANNERS, choose, rehearse, target_of
+from study.simulation import MANNERS, USUAL, choose, crowd_of, rehearse, target_of
 
 
 def test_a_rehearsal_leaves_a_whole_table_that_nobody_takes_for_data(
@@ -66,9 +69,16 @@ def test_each_manner_answers_as_its_name_says(protocol: Protocol) -> None:
     assert max(MANNERS, key=lambda name: -MANNERS[name].rt_s) == "speeder"
 
 
+def test_a_crowd_is_of_known_manners() -> None:
+    assert crowd_of(()) == USUAL
+    assert crowd_of(("dropout", "speeder")) == {"dropout": 1.0, "speeder": 1.0}
+    with pytest.raises(InputError, match=r"'Yea sayer' is no manner of answering: did you mean yea-sayer\?"):
+        crowd_of(("Yea sayer",))
+
+
 def test_those_who_drop_out_leave_what_they_answered(protocol: Protocol, tmp_path: Path) -> None:
     assert MANNERS["dropout"].drops_out > 0
-    table = rehearse(protocol, 6, tmp_path / "out", shares={"dropout": 1.0})
+    table = rehearse(protocol, 6, tmp_path / "out", shares=crowd_of(("dropout",)))
     with table.open(newline="", encoding="utf-8") as file:
         counts = Counter(row["participant"] for row in csv.DictReader(file))
     assert min(counts.values(), default=0) < 16
