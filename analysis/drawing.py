@@ -6,7 +6,8 @@ Colours are Okabe & Ito's, told apart with any colour vision; no figure relies o
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, wraps
 from pathlib import Path
@@ -70,6 +71,22 @@ def lay_out(figure: Figure) -> None:
         axes.set_position((left, bottom, width, height))
 
 
+@contextmanager
+def _lean_fonts() -> Iterator[None]:
+    """Embed fonts without their rules for setting text: it is set already, and reading them takes longest.
+
+    matplotlib hands no choice of tables on to fontTools, so fontTools' default is another meanwhile.
+    """
+    from fontTools.subset import Options
+
+    dropped = Options._drop_tables_default
+    Options._drop_tables_default = [*dropped, "GSUB", "GPOS", "GDEF"]
+    try:
+        yield
+    finally:
+        Options._drop_tables_default = dropped
+
+
 @dataclass(frozen=True)
 class Drawing:
     """A figure with what a caption says of it, and what it says to someone who cannot see it."""
@@ -111,7 +128,8 @@ class Drawing:
     def write(self, folder: Path) -> None:
         """Write NAME.svg, NAME.pdf and NAME.png."""
         (folder / f"{self.name}.svg").write_text(self.svg, encoding="utf-8")
-        (folder / f"{self.name}.pdf").write_bytes(self._bytes("pdf", {"CreationDate": None}))
+        with _lean_fonts():
+            (folder / f"{self.name}.pdf").write_bytes(self._bytes("pdf", {"CreationDate": None}))
         (folder / f"{self.name}.png").write_bytes(self._bytes("png", {"Software": None}))
 
     @styled

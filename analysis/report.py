@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import gc
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
@@ -65,6 +67,26 @@ def analyse(
         analysed=analysed,
     )
     results = Results(findings, provenance, look_further(findings, responses, protocol))
+    with _garbage_kept():
+        _write(out, results, protocol)
+    return results
+
+
+@contextmanager
+def _garbage_kept() -> Iterator[None]:
+    """Look for no garbage meanwhile: nearly all of a report's many objects last till its end."""
+    looked = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if looked:
+            gc.enable()
+
+
+def _write(out: Path, results: Results, protocol: Protocol) -> None:
+    """Write every file of the report into a folder."""
+    findings = results.findings
     drawings = draw(findings, labels_of(protocol))
     for folder in (out, out / "tables", out / "figures"):
         folder.mkdir(parents=True, exist_ok=True)
@@ -75,7 +97,6 @@ def analyse(
         drawing.write(out / "figures")
     (out / "report.html").write_text(html(results, protocol, drawings), encoding="utf-8")
     write_pdf(out / "report.pdf", results, protocol, drawings)
-    return results
 
 
 def tables(findings: Findings) -> dict[str, str]:
