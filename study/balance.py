@@ -107,12 +107,17 @@ def balance_table(parts: Sequence[Balance]) -> str:
     lines = []
     for part in parts:
         width = max(map(len, part.things))
-        low, high = part.follows_range
-        lines.append(f"{part.part}: how often in each position (after each other: {_range(low, high)})")
-        lines += [
-            f"  {name:<{width}}" + "".join(f"{n:4}" for n in row) for name, row in part.positions.items()
-        ]
+        carried = any(part.follows.values())
+        after_each = " | and straight after each other" if carried else ""
+        lines.append(f"{part.part}: how often in each position{after_each}")
+        for name, row in part.positions.items():
+            after = _columns(part.follows.get((other, name), "–") for other in part.things)
+            lines.append(f"  {name:<{width}}{_columns(row)}" + (f" |{after}" if carried else ""))
     return "\n".join(lines)
+
+
+def _columns(counts: Iterable[object]) -> str:
+    return "".join(f"{count:>4}" for count in counts)
 
 
 def _range(low: int, high: int) -> str:

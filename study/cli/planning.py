@@ -65,7 +65,7 @@ def orders(
     else:
         sys.stdout.write(orders_csv(plans))
         sys.stdout.flush()
-        Console(stderr=True, highlight=False).print(balance_table(counts))
+        Console(stderr=True, highlight=False, soft_wrap=True).print(balance_table(counts))
 
 
 @app.command()

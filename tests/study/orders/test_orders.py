@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stimuli.errors import InputError
-from study.balance import balance
+from study.balance import balance, balance_table
 from study.chance import Stream
 from study.designs import latin_square, williams
 from study.orders import assign_slot, cycle, draw_plan
@@ -241,3 +241,13 @@ def test_items_are_shuffled_once_per_participant():
         (items,) = {trial.items for trial in draw_plan(protocol, slot).trials if trial.part == "recognition"}
         seen.add(items)
     assert len(seen) > 8
+
+
+def test_the_table_tells_positions_and_who_follows_whom():
+    (counts, _) = balance(PAPER, [draw_plan(PAPER, slot) for slot in range(7)])
+    title, *rows = balance_table([counts]).splitlines()
+    assert title == "recognition: how often in each position | and straight after each other"
+    table = {row.split()[0]: row.split("|") for row in rows}
+    assert [int(n) for n in table["joy"][0].split()[1:]] == list(counts.positions["joy"])
+    followed = table["anger"][1].split()
+    assert followed[2] == "–" and int(followed[0]) == counts.follows["joy", "anger"]

@@ -1,9 +1,9 @@
 """Every example of the README and of docs/ is run.
 
-A block in YAML is a piece of a protocol: it is completed, loaded, ordered and answered. Gestures and robots
-among them, XML, CSV and Python are run by the tests that belong to their page. A command is parsed as it stands,
-so it and its options exist; those of the README are also run (tests/test_readme.py). Exempt are blocks for other
-programs, nginx and systemd, and commands that are not ours.
+A block in YAML is a piece of a protocol: it is completed, loaded, ordered and answered. Gestures and
+robots among them, XML, CSV and Python are run by the tests that belong to their page. A command is parsed
+as it stands, so it and its options exist; those of the README are also run (tests/test_readme.py). Exempt
+are blocks for other programs, nginx and systemd, and commands that are not ours.
 """
 
 import random
