@@ -165,7 +165,7 @@ def export_responses(
     clips: ClipHashes | None = None,
     earlier: Iterable[Protocol] = (),
 ) -> Path:
-    """Write responses.csv and its codebook into a folder; gives the path of the table.
+    """Write responses.csv, its codebook and all records as JSON into a folder; gives the path of the table.
 
     `earlier` are the versions of the protocol that participants began with before amendments.
     """
@@ -175,6 +175,7 @@ def export_responses(
         file.write(responses_csv(store, kind=kind, clips=clips))
     book = json.dumps(codebook(protocol, kind=kind, earlier=earlier), indent=2, ensure_ascii=False)
     (out / "responses.codebook.json").write_text(book + "\n", encoding="utf-8")
+    (out / "responses.json").write_text(responses_json(store, kind=kind), encoding="utf-8")
     return table
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Error, Page, Route, expect
 
 from study.web.site import Site
 
@@ -65,15 +65,19 @@ def test_a_double_click_answers_once(visit, page: Page, site: Site) -> None:
     assert len(stored(site)) == 1
 
 
-def test_answers_survive_closing_the_browser_before_they_were_sent(visit, page: Page, site: Site) -> None:
+def test_answers_survive_closing_the_browser_and_opening_it_again_without_a_network(
+    visit, page: Page, site: Site
+) -> None:
     visit.skip_to(1)
-    page.context.route("**/study/answers", lambda route: route.abort())
+    page.context.set_offline(True)
     page.get_by_label("How old are you?").fill("51")
     visit.press_continue()
     expect(page.locator("#notice")).to_contain_text("There is no connection")
     page.close()
-    page.context.unroute("**/study/answers")
     later = page.context.new_page()
+    with pytest.raises(Error, match="ERR_INTERNET_DISCONNECTED"):
+        later.goto(f"{visit.address}/study")
+    page.context.set_offline(False)
     later.goto(f"{visit.address}/study")
     expect(later.get_by_role("heading", name="Before we start")).to_be_visible()
     assert [values["age"] for values in stored(site)] == ["51"]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
 from playwright.sync_api import Page, Route, expect
 
+from study.export import responses_json
 from study.protocol import load_protocol
 from study.responses import View
 from study.web.app import create_app
@@ -65,6 +67,8 @@ def test_every_play_is_on_record_and_replays_end_where_the_protocol_says(
     assert 0 < view.frames <= 18 + 1, "frames shown, by requestVideoFrameCallback; fewer on a busy machine"
     names = [happening.name for happening in view.happenings]
     assert names.count("playing") == names.count("ended") == 2
+    [session] = json.loads(responses_json(site.store))["sessions"]
+    assert session["pages"][-1]["views"] == [view.model_dump(mode="json")], "all of it is exported"
     times = [happening.at_ms for happening in view.happenings]
     assert times == sorted(times), "by a clock that only goes forward"
 
