@@ -7,12 +7,12 @@ import random
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from math import sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from analysis.dataset import read_responses
 from analysis.plan import carry_out
+from analysis.statistics.wilson import wilson
 from study.orders import draw_plan
 from study.simulation import Manner, choose
 
@@ -37,8 +37,9 @@ class SimulatedPower:
         return self.found / self.runs
 
     def __str__(self) -> str:
-        error = 1.96 * sqrt(self.power * (1 - self.power) / self.runs)
-        return f"{self.hypothesis} {self.test}: {self.power:.0%} ± {error:.0%} of {self.runs} runs"
+        low, high = wilson(self.found, self.runs) or (0.0, 1.0)
+        within = f"95% CI {low:.0%} to {high:.0%}"
+        return f"{self.hypothesis} {self.test}: {self.power:.0%} of {self.runs} runs ({within})"
 
 
 def simulated_power(

@@ -106,7 +106,10 @@ def _set(modulation: Modulation) -> str:
 
 def _participants(protocol: Protocol) -> Iterator[str]:
     yield f"We planned for {count(protocol.participants.planned, 'participant')}."
-    yield from (f"For {found.hypothesis}, {found} {found.level}." for found in power(protocol))
+    alike: dict[str, list[str]] = {}
+    for found in power(protocol):
+        alike.setdefault(f"{found} {found.level}", []).append(found.hypothesis)
+    yield from (f"For {listed(names)}, {found}." for found, names in alike.items())
     yield "Data were gathered until as many had completed the study. [Number] took part"
     service = protocol.participants.recruitment.service
     means = f"through {SERVICES[service]}" if service else "by [means]"

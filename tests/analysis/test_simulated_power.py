@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from analysis.simulated_power import simulated_power
+from analysis.simulated_power import SimulatedPower, simulated_power
 from study.protocol import load_protocol
 
 GODSPEED = load_protocol(Path(__file__).parents[2] / "protocols" / "godspeed")
@@ -21,3 +21,7 @@ def test_without_an_effect_little_is_found_and_with_one_nearly_all():
 def test_simulated_power_repeats_with_the_studys_seed():
     once, again = (simulated_power(GODSPEED, runs=2, n=16) for _ in range(2))
     assert once == again
+
+
+def test_a_few_runs_that_all_succeed_prove_little():
+    assert str(SimulatedPower("H1", "joy", found=4, runs=4)) == "H1 joy: 100% of 4 runs (95% CI 51% to 100%)"
