@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from stimuli.errors import InputError
 from stimuli.outline import Outline, places
 from stimuli.robots.model import Robot
 from stimuli.scene import PRESETS, SHADOW, pose, studio
@@ -20,14 +21,20 @@ DIRECTIONS = np.array([d for d in itertools.product([-1, 0, 1], repeat=3) if any
 
 
 def closest_camera(robot: Robot, motions: Sequence[Trajectory], *, width: int, height: int) -> str:
-    """The closest preset in which nothing that moves leaves the frame; the widest where all fail."""
+    """The closest preset in which nothing that moves leaves the frame. InputError where there is none."""
     model = studio(robot, width=width, height=height)
     outline = _outermost(model)
-    fitting = list(PRESETS)[:-1]
+    fitting = list(PRESETS)
     for motion in motions:
         points = _swept(model, outline, robot, motion)
         fitting = [name for name in fitting if _inside(points, model, name, width / height)]
-    return fitting[0] if fitting else list(PRESETS)[-1]
+    if not fitting:
+        widest = list(PRESETS)[-1]
+        raise InputError(
+            f"camera: auto: {robot.title} moves out of every picture, the widest too. Let it move less, or "
+            f"name the camera that is to show a part of it: `camera: {widest}`"
+        )
+    return fitting[0]
 
 
 def _outermost(model: mujoco.MjModel) -> Outline:

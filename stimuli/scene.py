@@ -46,7 +46,7 @@ def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
     """The robot in the studio, with a camera for each preset that suits the picture's shape."""
     spec = robot.build()
     bare = spec.compile()
-    foot, (_, height_m) = find_foot(bare, robot), extent(bare, robot)
+    foot, (_, height_m), reach_m = find_foot(bare, robot), extent(bare, robot), reach(bare, robot)
     add_light(spec)
     add_cove(spec)
     add_contact_shadow(spec, foot)
@@ -55,6 +55,8 @@ def studio(robot: Robot, *, width: int, height: int) -> mujoco.MjModel:
         bottom = min(lower, -near) if lower < 0 else lower
         tall = height_m * (top - bottom)
         wide = tall if name == "head" else height_m * 1.2
+        if lower < 0:  # a robot that lies down is longer than it is high
+            wide = max(wide, 2 * reach_m * (top - lower))
         shown = max(tall, wide * height / width)
         add_camera(spec, name, robot.view, middle=height_m * (bottom + top) / 2, tall=shown)
     spec.visual.global_.offwidth = width
@@ -74,6 +76,11 @@ def extent(model: mujoco.MjModel, robot: Robot) -> tuple[float, float]:
     """Height of the robot's lowest and of its highest point at home, in metres."""
     heights = np.concatenate([part[:, 2] for part in at_home(model, robot)[1]])
     return float(heights.min()), float(heights.max())
+
+
+def reach(model: mujoco.MjModel, robot: Robot) -> float:
+    """How far the robot reaches sideways from above its origin at home, in metres."""
+    return max(float(np.linalg.norm(part[:, :2], axis=1).max()) for part in at_home(model, robot)[1])
 
 
 @dataclass(frozen=True)

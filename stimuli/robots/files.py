@@ -171,7 +171,9 @@ def _joints(
             )
         low, high = joint.range if limited else HALF_TURNS
         xyz = turn @ (data.xpos[child] - data.xpos[parent])
-        rpy = Rotation.from_matrix(turn @ data.xmat[child].reshape(3, 3)).as_euler("xyz")
+        rpy = Rotation.from_matrix(turn @ data.xmat[child].reshape(3, 3)).as_euler(
+            "xyz", suppress_warnings=True
+        )
         joints.append(
             Joint(
                 name=joint.name,

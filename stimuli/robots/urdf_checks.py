@@ -15,6 +15,7 @@ from stimuli.errors import InputError, nearest
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 BOUNDED = ("revolute", "prismatic")
+ROUNDING = 1e-9  # what programs that compute inertias leave where there is none
 SIZES = {  # attributes of shapes, and how many numbers each has
     "box": {"size": 3},
     "cylinder": {"radius": 1, "length": 1},
@@ -41,6 +42,10 @@ def check_urdf(root: ET.Element, places: Places) -> None:
         if "xacro" in element.tag or any("${" in value for value in element.attrib.values()):
             tag = element.tag.rpartition(":")[2]
             raise InputError(f"{places.of(element)}: this is xacro still, at <{tag}>. Expand it first")
+    if root.tag != "robot" or root.find("link") is None:
+        raise InputError(
+            f"{places.of(root)}: this is no URDF: <{root.tag}> where <robot> with links is needed"
+        )
     links, joints = (_named_once(root, kind, places) for kind in ("link", "joint"))
     for name, link in links.items():
         _check_link(link, f"link {name!r}", places)
@@ -67,7 +72,7 @@ def _check_link(link: ET.Element, what: str, places: Places) -> None:
     for attribute in ("value", "ixx", "iyy", "izz"):
         for element in link.findall("inertial/mass" if attribute == "value" else "inertial/inertia"):
             (value,) = _numbers(element, attribute, 1, "0", what, places)
-            if value < 0:
+            if value < -ROUNDING:
                 problem = f"{element.tag}: {attribute} {value:g} is below zero"
                 remedy = "give it as it is, or leave <inertial> out: nothing is simulated"
                 raise InputError(f"{places.of(element)}: {what}: {problem}; {remedy}")

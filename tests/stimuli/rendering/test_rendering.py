@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from stimuli.errors import InputError
 from stimuli.framing import closest_camera
 from stimuli.rendering import Renderer
 from stimuli.robots import ROBOTS, load_robot
@@ -110,6 +111,19 @@ def test_the_closest_camera_is_the_one_nothing_leaves(pepper: Robot) -> None:
     assert closest_camera(pepper, [nod], **size) == "head"
     assert closest_camera(pepper, [nod, wave], **size) == "upper_body"
     assert closest_camera(pepper, [wave, bow], **size) == "full_body"
+
+
+def test_a_robot_that_lies_down_is_framed_by_its_length_and_one_that_leaves_every_picture_is_refused() -> (
+    None
+):
+    rod = "<body name='rod' pos='0 0 .05'>{}<geom type='box' size='.6 .05 .05'/></body>"
+    joints = "<joint name='turn' axis='0 0 1'/><joint name='run' type='slide' axis='0 1 0'/>"
+    spec = mujoco.MjSpec.from_string(f"<mujoco><worldbody>{rod.format(joints)}</worldbody></mujoco>")
+    lying = Robot(name="rod", title="A rod", joints=(), home={"turn": 0.0, "run": 0.0}, build=spec.copy)
+    size = {"width": WIDTH, "height": HEIGHT}
+    assert closest_camera(lying, [motion(lying, {"turn": 3.0})], **size) == "full_body"
+    with pytest.raises(InputError, match="camera: auto: A rod moves out of every picture"):
+        closest_camera(lying, [motion(lying, {"run": 9.0})], **size)
 
 
 def test_presets_go_from_close_to_far() -> None:

@@ -57,6 +57,7 @@ TURN = '<limit lower="-1" upper="1.5" velocity="2.5"/>'
         (REACH, '<mimic joint="reach"/>', "11: joint 'reach': mimic: it follows itself"),
         (REACH, '<mimic joint="turn" offset="x"/>', "11: joint 'reach': mimic: offset is 'x', not a number"),
         ("visual", "unseen", " it has nothing to see"),
+        ("robot", "robo", "1: this is no URDF: <robo> where <robot> with links"),
         ("</robot>", "", " cannot be read as a URDF: no element found: line 13"),
     ],
 )  # fmt: skip
