@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analysis.statistics.alike import alike
+from analysis.statistics.samples import observed_rows
 
 FloatArray = NDArray[np.float64]
 Cluster = tuple[FloatArray, FloatArray, float]  # design (m, 2), answers (m,), and who gave them: how many
@@ -43,8 +44,7 @@ def gee_logistic(
     >>> round(result.effect, 3), round(result.se, 3)
     (2.197, 1.778)
     """
-    y, covariate = np.asarray(chosen, dtype=float), np.asarray(x, dtype=float)
-    _, group = np.unique(np.asarray(participants), return_inverse=True)
+    y, covariate, group = observed_rows(chosen, x, participants)
     n, count = y.size, int(group.max()) + 1 if group.size else 0
     for level in np.unique(covariate):
         if np.ptp(y[covariate == level]) == 0:

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import fdtri
 
+ROUNDING = 1e-12  # a mean square below this share of all squares is zero but for rounding
+
 
 @dataclass(frozen=True)
 class Icc:
@@ -39,7 +41,7 @@ def icc(ratings: ArrayLike) -> dict[str, Icc]:
     total = float(((table - grand) ** 2).sum())
     within = (total - (n - 1) * between) / (n * (k - 1))
     error = (total - (n - 1) * between - (k - 1) * raters) / ((n - 1) * (k - 1))
-    if within == 0 or error == 0:
+    if min(between, within, error) <= total * ROUNDING:
         return {}
     one = _of_ratio(between / within, n - 1, n * (k - 1), k)
     three = _of_ratio(between / error, n - 1, (n - 1) * (k - 1), k)

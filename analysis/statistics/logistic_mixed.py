@@ -11,6 +11,7 @@ from scipy.special import expit
 
 from analysis.statistics.alike import alike
 from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
+from analysis.statistics.samples import observed_rows
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -45,8 +46,7 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
     >>> round(result.effect, 2), round(result.se, 2)
     (1.39, 1.22)
     """
-    y, covariate = np.asarray(chosen, dtype=float), np.asarray(x, dtype=float)
-    _, group = np.unique(np.asarray(participants), return_inverse=True)
+    y, covariate, group = observed_rows(chosen, x, participants)
     count = int(group.max()) + 1 if group.size else 0
 
     def undefined(reason: str) -> LogisticMixed:

@@ -26,6 +26,16 @@ def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, Flo
     return a[both], b[both]
 
 
+def observed_rows(
+    values: ArrayLike, x: ArrayLike, participants: ArrayLike
+) -> tuple[FloatArray, FloatArray, NDArray[np.intp]]:
+    """Answers, their conditions and their participants, numbered from 0; without rows that miss a number."""
+    answers, conditions = np.asarray(values, dtype=float).ravel(), np.asarray(x, dtype=float).ravel()
+    there = ~(np.isnan(answers) | np.isnan(conditions))
+    _, people = np.unique(np.asarray(participants).ravel()[there], return_inverse=True)
+    return answers[there], conditions[there], people
+
+
 @dataclass(frozen=True)
 class Moments:
     """Number, mean, standard deviation and standard error of a sample; None where undefined."""

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.special import nctdtr
 
+from analysis.statistics.noncentral_t import ncp_interval
 from analysis.statistics.one_sample_t import one_sample_t
 from analysis.statistics.paired_t import d_av, paired_t
 from analysis.statistics.student_t import student_t
@@ -176,3 +178,20 @@ def test_d_av_is_the_difference_in_root_mean_square_deviations() -> None:
     sd = np.sqrt((np.var(X, ddof=1) + np.var(Y, ddof=1)) / 2)
     assert d_av(X, Y) == pytest.approx((np.mean(X) - np.mean(Y)) / sd)
     assert d_av([1, 1], [0, 0]) is None
+
+
+@pytest.mark.parametrize("df", [1, 2, 5, 33, 5000])
+@pytest.mark.parametrize("t", [0, 1, 20, 300, 2e4, 1e9])
+def test_every_t_has_an_interval_of_its_noncentrality(t: float, df: int) -> None:
+    limits = ncp_interval(t, df)
+    assert limits is not None and limits[0] < t < limits[1]
+    if t < 1000:
+        assert [float(nctdtr(df, limit, t)) for limit in limits] == pytest.approx([0.975, 0.025], abs=1e-9)
+    mirrored = ncp_interval(-t, df)
+    assert mirrored is not None and mirrored == pytest.approx((-limits[1], -limits[0]), abs=1e-9)
+
+
+def test_the_interval_of_a_large_effect_in_few_participants_agrees_with_r() -> None:
+    # R: f <- function(p, l, h) uniroot(function(n) pt(20, 5, n) - p, c(l, h), tol = 1e-12)$root
+    #    c(f(.975, 5, 20), f(.025, 20, 36))
+    assert ncp_interval(20, 5) == pytest.approx((7.9619655544, 32.177843773), rel=1e-8)
