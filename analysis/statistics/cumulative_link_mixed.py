@@ -11,6 +11,7 @@ from scipy.special import expit
 
 from analysis.statistics.alike import alike
 from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
+from analysis.statistics.samples import observed_rows
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -43,13 +44,12 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     >>> round(cumulative_link_mixed(ratings, target, people).effect, 1)
     2.0
     """
-    values, y = np.unique(np.asarray(ratings), return_inverse=True)
-    covariate = np.asarray(x, dtype=float)
-    names, group = np.unique(np.asarray(participants), return_inverse=True)
-    levels = values.size
+    answers, covariate, group = observed_rows(ratings, x, participants)
+    values, y = np.unique(answers, return_inverse=True)
+    levels, count = values.size, np.unique(group).size
     if levels < 2 or np.ptp(covariate) == 0:
         reason = "undefined: one rating only" if levels < 2 else "undefined: one condition only"
-        return CumulativeLinkMixed(y.size, names.size, None, None, None, None, (), None, None, reason)
+        return CumulativeLinkMixed(y.size, count, None, None, None, None, (), None, None, reason)
     shares = np.cumsum(np.bincount(y))[:-1] / y.size
     cuts = np.log(shares / (1 - shares))
     start = np.concatenate([cuts[:1], np.log(np.maximum(np.diff(cuts), 1e-3)), [0.0, 0.0]])
@@ -59,10 +59,10 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     se = standard_error(model.negative, parameters, of=levels - 1, log_sd=levels)
     if se is None or abs(effect) > LARGEST or parameters[levels] > np.log(WIDEST):
         reason = "undefined: the conditions or the participants separate the ratings"
-        return CumulativeLinkMixed(y.size, names.size, None, None, None, None, (), None, None, reason)
+        return CumulativeLinkMixed(y.size, count, None, None, None, None, (), None, None, reason)
     return CumulativeLinkMixed(
         n=y.size,
-        participants=names.size,
+        participants=count,
         effect=effect,
         se=se,
         z=effect / se,
