@@ -97,14 +97,15 @@ class _Gathered:
     def add(self, fields: Fields, below: int) -> None:
         """Add the rows of a block from the row `below` on."""
         starts, ends = fields.starts[below:, self.place], fields.ends[below:, self.place]
-        first = _first_of_runs(fields.text, starts, ends - starts)
-        codes = self._codes(fields.text, starts[first], ends[first])
+        words = _words(fields.text, starts, ends - starts)
+        first = _first_of_runs(fields.text, starts, ends - starts, words)
+        codes = self._codes(fields.text, starts[first], ends[first], words[first])
         codes = codes.astype(np.min_scalar_type(len(self.values)))
         self.blocks.append(np.repeat(codes, np.diff(first, append=starts.size)))
 
-    def _codes(self, text: bytes, starts: Places, ends: Places) -> Codes:
+    def _codes(self, text: bytes, starts: Places, ends: Places, words: Words) -> Codes:
         """The code of each value, (values,); new values get the next ones, in the order of rows."""
-        spelling = self.spellings.numbers(text, starts, ends - starts)
+        spelling = self.spellings.numbers(text, starts, ends - starts, words)
         if (more := self.spellings.size - self.codes.size) > 0:
             self.codes = np.append(self.codes, np.full(more, -1, dtype=np.int32))
         codes: Codes = self.codes[spelling]
@@ -128,11 +129,10 @@ def _words(text: bytes, starts: Places, lengths: Places) -> Words:
     return at_every_byte[starts] & KEEP[np.minimum(lengths, WORD)]
 
 
-def _first_of_runs(text: bytes, starts: Places, lengths: Places) -> Places:
-    """The rows that hold another value than the row before."""
+def _first_of_runs(text: bytes, starts: Places, lengths: Places, words: Words) -> Places:
+    """The rows that hold another value than the row before; `words` are their first ones."""
     new = np.ones(starts.size, dtype=bool)
-    word = _words(text, starts, lengths)
-    new[1:] = (word[1:] != word[:-1]) | (lengths[1:] != lengths[:-1])
+    new[1:] = (words[1:] != words[:-1]) | (lengths[1:] != lengths[:-1])
     for done in range(WORD, int(lengths.max(initial=0)), WORD):
         longer = np.flatnonzero(lengths > done)
         word = _words(text, starts[longer] + done, lengths[longer] - done)
@@ -151,9 +151,9 @@ class _Spellings:
         """No number is larger."""
         return 2 * max(self.first.words.size, self.pairs.words.size)
 
-    def numbers(self, text: bytes, starts: Places, lengths: Places) -> Numbers:
-        """The number of each value, (rows,); the beginnings of longer ones have numbers too."""
-        found = 2 * self.first.numbers(_words(text, starts, lengths))
+    def numbers(self, text: bytes, starts: Places, lengths: Places, words: Words) -> Numbers:
+        """The number of each value, (rows,), given its first word; beginnings of values too."""
+        found = 2 * self.first.numbers(words)
         for done in range(WORD, int(lengths.max(initial=0)), WORD):
             longer = np.flatnonzero(lengths > done)
             word = self.next.numbers(_words(text, starts[longer] + done, lengths[longer] - done))
