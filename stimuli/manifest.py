@@ -20,7 +20,9 @@ class Clip(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    file: str
+    file: str = Field(
+        pattern=r"^\w[\w.-]*\.mp4$"
+    )  # in the manifest's folder and nowhere else: it will be served
     file_sha256: str
     spec: Mapping[str, Any]  # the stimulus' specification, no parameter left to a default
     spec_sha256: str

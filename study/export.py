@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from study.orders import Trial
-from study.participants import Kind
+from study.participants import NAME_PREFIX, Kind
 from study.protocol import Protocol
 from study.questions import Question
 from study.responses import Response
@@ -92,7 +92,10 @@ def responses_csv(store: Store, *, kind: Kind = "participant", clips: ClipHashes
 
 
 def responses_json(store: Store, *, kind: Kind = "participant") -> str:
-    """Everything about every session: its plan, and each answered page with what happened to its clips."""
+    """Everything about every session: its plan, and each answered page with what happened to its clips.
+
+    Of those who withdrew it says when, and how many answers were deleted.
+    """
     sessions = [
         {
             **{name: value for name, value in vars(session).items() if name not in SECRET},
@@ -108,7 +111,9 @@ def responses_json(store: Store, *, kind: Kind = "participant") -> str:
         }
         for session, responses in store.responses(kind)
     ]
-    content = {"kind": kind, "is_data": kind == "participant", "sessions": sessions}
+    own = f"{NAME_PREFIX[kind]}-"
+    withdrawn = [vars(note) for note in store.withdrawals() if note.participant.startswith(own)]
+    content = {"kind": kind, "is_data": kind == "participant", "sessions": sessions, "withdrawals": withdrawn}
     return json.dumps(content, indent=1, ensure_ascii=False, default=_moment)
 
 

@@ -13,7 +13,7 @@ from uuid import uuid4
 import httpx
 import pytest
 
-from study.export import COLUMNS
+from study.export import COLUMNS, responses_json
 from study.web.participant import questions_of, steps_of
 from study.web.security import HEADERS
 from study.web.site import Site
@@ -227,4 +227,8 @@ def test_withdrawing_by_code_deletes_and_an_unknown_code_does_not(
         code = session.completion_code.lower()
         assert elsewhere.post("/withdraw", data={"sure": "yes", "code": code}).status_code == 200
     assert site.store.session(page["participant"]) is None
-    assert len(site.store.withdrawals()) == 1
+    records = json.loads(responses_json(site.store))
+    assert [(note["participant"], note["responses"]) for note in records["withdrawals"]] == [
+        (page["participant"], 0)
+    ]
+    assert json.loads(responses_json(site.store, kind="test"))["withdrawals"] == []

@@ -152,3 +152,10 @@ def test_no_answer_that_was_acknowledged_is_lost_when_the_server_is_killed(
 def test_a_study_without_its_clips_is_not_served(protocol: Protocol, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"5 of 6 clips are not there|6 of 6 clips are not there"):
         serve(protocol, Manifest(), clips_folder=tmp_path, data_folder=tmp_path, announce=print)
+
+
+def test_a_manifest_names_files_of_its_own_folder_only(manifest: Manifest, tmp_path: Path) -> None:
+    told = manifest.model_dump_json().replace("joy.mp4", "../joy.mp4")
+    (tmp_path / "manifest.json").write_text(told)
+    with pytest.raises(InputError, match="this is not a manifest of clips"):
+        Manifest.load(tmp_path)
