@@ -12,9 +12,8 @@ GLOSSARY = {
     "p": "Probability of a result at least as extreme if there were no effect.",
     "p adjusted": "p adjusted for the number of tests in its family; this one is compared with α. "
     "Where t is undefined, the exact test named beside it takes its place in the family. R: p.adjust",
-    "d": "Cohen's d: the difference in standard deviations, with the exact interval from the noncentral t, two-sided "
-    "whatever the test. "
-    "R: pt(t, df, ncp) solved for ncp",
+    "d": "Cohen's d: the difference in standard deviations, with the exact interval from the noncentral t, "
+    "two-sided whatever the test. R: pt(t, df, ncp) solved for ncp",
     "g": "Hedges' g: d without its bias in small samples (exact factor).",
     "sign flip": "Exact test: share of all 2ⁿ signs of the differences that give as extreme a sum.",
     "Wilcoxon": "Signed-rank test, zeros after Pratt, normal approximation corrected for ties. "
