@@ -13,6 +13,7 @@ from stimuli.gestures import read_gesture
 from stimuli.motion import generate
 from stimuli.relations import in_short, relations_of
 from stimuli.robots import load_robot
+from stimuli.robots.model import Robot
 from stimuli.trajectory import Trajectory
 from study.balance import balance
 from study.orders import cycle, draw_plan
@@ -161,6 +162,16 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("wrong", "motions", "\n".join(beyond))
     else:
         yield Finding("good", "motions", "the robot can do every stimulus within its limits")
+    yield from _unchecked(robots)
+
+
+def _unchecked(robots: Mapping[str, Robot]) -> Iterator[Finding]:
+    """Joints whose velocity limit nobody gave."""
+    for name, robot in robots.items():
+        unknown = ", ".join(joint.name for joint in robot.joints if joint.max_velocity is None)
+        if unknown:
+            unchecked = f"{name}: how fast {unknown} may move is unknown, so it is not checked"
+            yield Finding("mind", "motions", f"{unchecked}; give `velocities` in the robot's file")
 
 
 def _eased(gestures: Mapping[str, Trajectory], protocol: Protocol) -> Iterator[Finding]:

@@ -98,3 +98,20 @@ def test_a_gesture_that_is_eased_is_to_be_minded(load, written, tmp_path):
     assert minded[-1].startswith("cut moves at its start and end; eased over 0.2 s of it")
     refusing = load(written | {"learning": {"moving_ends": "refuse"}})
     assert "moves at its start or end" in str(check(refusing))
+
+
+def test_joints_whose_speed_nobody_limits_are_named(load, tmp_path):
+    body = "<body name='arm'><joint name='lift' range='-60 60'/><geom size='.1'/></body>"
+    (tmp_path / "arm.xml").write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    (tmp_path / "arm.yaml").write_text("robot: arm\ntitle: An arm\nmodel: arm.xml\n")
+    (tmp_path / "nod.yaml").write_text(
+        "gesture: nod\nduration: 1 s\njoints: {lift: {0: 0, 0.5: 0.1, 1: 0}}\n"
+    )
+    part = {"title": "Arm", "stimuli": {"gesture": "nod", "modulations": ["neutral"]}}
+    rate = {"text": "Lively", "items": ["lively"], "points": 5, "ends": ["no", "yes"]}
+    study = {"study": "arm", "title": "Arm", "contact": "lab@example.org", "robot": "arm.yaml", "seed": 1}
+    study |= {"gestures": {"nod": "nod.yaml"}, "modulations": {"neutral": {}}}
+    study |= {"parts": {"one": {**part, "ask": [{"rate": rate}]}}, "participants": {"planned": 4}}
+    report = check(load(study))
+    unknown = "arm.yaml: how fast lift may move is unknown, so it is not checked; give `velocities`"
+    assert any(unknown in finding.message for finding in report.findings if finding.verdict == "mind")
