@@ -75,6 +75,10 @@ def create_app(site: Site) -> FastAPI:
                 say("This invitation has expired"),
                 say("Please ask the experimenter for a new one."),
             ),
+            428: (
+                say("Your browser keeps no cookies"),
+                say("The study needs one. Please allow cookies, then open your link again."),
+            ),
             429: (
                 say("Please wait a little"),
                 say("There were too many attempts. Please try again in a minute."),

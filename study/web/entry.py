@@ -100,6 +100,14 @@ def code(request: Request, code: Annotated[str, Form(max_length=40)]) -> Respons
     return remember(request, token)
 
 
+@router.get("/entered", name="entered")
+def entered(request: Request) -> Response:
+    """On to the page that is due; a browser that keeps no cookie is told so instead of welcomed for ever."""
+    if participant_of(request) is None:
+        raise HTTPException(428)
+    return to(request, "study")
+
+
 def _require_in_time(request: Request, invited: Participant) -> None:
     """An invitation that is not followed in time opens nothing any more; whoever has begun may go on."""
     site = site_of(request)

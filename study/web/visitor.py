@@ -48,8 +48,8 @@ def to(request: Request, name: str) -> RedirectResponse:
 
 
 def remember(request: Request, token: str) -> Response:
-    """Keep the token in a cookie that no script can read, and go to the page that is due."""
-    answer = to(request, "study")
+    """Keep the token in a cookie that no script can read, and see that the browser brings it back."""
+    answer = to(request, "entered")
     secure = request.url.scheme == "https"
     answer.set_cookie(TOKEN, token, max_age=COOKIE_LASTS_S, httponly=True, samesite="lax", secure=secure)
     if (language := request.query_params.get("lang")) in site_of(request).protocol.languages:

@@ -112,6 +112,13 @@ def test_an_invitation_not_followed_in_time_opens_nothing_and_whoever_began_goes
         assert [tries(code) for code in codes] == [(200, 200), (410, 410)]
 
 
+def test_a_browser_that_keeps_no_cookie_is_told_so(visitor: httpx.Client) -> None:
+    began = visitor.post("/start", follow_redirects=False)
+    visitor.cookies.clear()
+    told = visitor.get(began.headers["location"])
+    assert told.status_code == 428 and "keeps no cookies" in told.text
+
+
 def test_guessing_is_slowed_down_and_nobody_is_locked_out_for_good(visitor: httpx.Client, site: Site) -> None:
     answers = [visitor.post("/code", data={"code": f"guess{n}"}) for n in range(12)]
     assert [answer.status_code for answer in answers] == [404] * 10 + [429] * 2

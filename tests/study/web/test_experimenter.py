@@ -190,7 +190,7 @@ def test_invitations_are_cards_with_pictures_of_their_links(
         assert modules_of(picture) == [list(row) for row in segno.make(link, error="m", micro=False).matrix]
     for link, code in zip(links, codes, strict=True):
         for answer in (httpx.get(link), httpx.post(f"{experimenter.base_url}/code", data={"code": code})):
-            assert answer.headers["location"] == "/study"
+            assert answer.headers["location"] == "/entered"
     assert [row.contact.note for row in rehearsed.store.progress()[:3]] == ["Tuesday"] * 3
 
 
