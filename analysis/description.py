@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.dataset import Answers
+from analysis.answers import Answers
 from analysis.open_answers import OpenAnswers
 from analysis.plan import Findings
 from analysis.statistics.samples import Moments, moments

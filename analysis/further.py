@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.dataset import Answers, FloatArray, Responses
+from analysis.answers import Answers, FloatArray
+from analysis.dataset import Responses
 from analysis.order import Order, order_of
 from analysis.plan import Findings, Levels, Outcome, Targets, decide_all
 from analysis.statistics.bayes_factor import BayesFactor, jzs_bayes_factor

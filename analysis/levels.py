@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.dataset import Answers
+from analysis.answers import Answers
 from analysis.statistics.binomial import Binomial, binomial
 from analysis.statistics.fisher import Fisher, fisher
 from analysis.statistics.mcnemar import McNemar, mcnemar

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from analysis.answers import MISSING, Answers
+
 if TYPE_CHECKING:
     from analysis.columns import Column
-    from analysis.dataset import Answers
     from study.protocol import Protocol
 
-MISSING, UNKNOWN = -1, -2  # no answer; an answer that is no option
+UNKNOWN = MISSING - 1  # an answer that is no option
 
 
 @dataclass(frozen=True)

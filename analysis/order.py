@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.dataset import FloatArray
+from analysis.answers import FloatArray
 from analysis.plan import Outcome, Preferences, Targets
 from analysis.statistics.order_effects import CarryOver, Position, carry_over, position_effect
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from analysis.answers import Answers
 from analysis.chance import DEFINITIONS, Definition, fixed
-from analysis.dataset import Answers, Responses
+from analysis.dataset import Responses
 from analysis.exclusions import Flow, apply_exclusions
 from analysis.levels import Compared, Comparison, comparisons
 from analysis.preference import Preferred, Two, preferences

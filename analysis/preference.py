@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from analysis.dataset import Answers
+from analysis.answers import Answers
 from analysis.fields import ResponsesError
 from analysis.statistics.binomial import Binomial, binomial
 from analysis.target import Judging, Verdict, judge

@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from analysis.answers import MISSING
 from analysis.columns import Column, read_columns
 from analysis.fields import ResponsesError, delimiter
-from analysis.naming import MISSING, Naming
+from analysis.naming import Naming
 
 REQUIRED = ("participant", "stimulus", "item", "response")
 OPTIONAL = ("part", "trial", "rt_ms", "session")

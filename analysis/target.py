@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from analysis.answers import Answers
 from analysis.chance import Definition, Scores, Target, applicable
-from analysis.dataset import Answers
 from analysis.statistics.adjustment import Correction, adjust
 from analysis.statistics.binomial import Binomial, binomial
 from analysis.statistics.one_sample_t import METHOD, one_sample_t
