@@ -60,6 +60,8 @@ def _of_targets(outcome: Targets) -> Iterator[tuple[str, str, Probabilities]]:
 
 def _of_levels(outcome: Levels) -> Iterator[tuple[str, str, Probabilities]]:
     results = outcome.results
+    if outcome.judging.test == "mcnemar":
+        return  # exact, and of the pairs themselves
     paired = outcome.judging.test in PAIRED
     if not paired:
         yield "equal variances", "Welch's t", {key: one.welch.p for key, one in results.items()}
@@ -75,6 +77,4 @@ def _of_levels(outcome: Levels) -> Iterator[tuple[str, str, Probabilities]]:
 
 
 def _exact_paired(one: Compared) -> float | None:
-    if one.choices is None or one.sign_flip.alternative == "two-sided":
-        return one.sign_flip.p if one.choices is None else one.choices.mcnemar.p_two_sided
-    return one.choices.mcnemar.p_one_sided
+    return one.sign_flip.p if one.choices is None else one.choices.mcnemar.p(one.sign_flip.alternative)

@@ -102,9 +102,12 @@ def _failed_checks(responses: Responses) -> NDArray[np.int64]:
 
 
 def _straight_lining(responses: Responses) -> NDArray[np.bool_]:
-    """Participants who gave every item of a rated part the same answer, (participants,)."""
+    """Participants whose answers to the items of a question are several and all the same, (participants,)."""
     straight = _nobody(responses)
     for question in responses.questions:
         if len(question.items) > 1:
-            straight |= question.codes.max(axis=(1, 2)) == question.codes.min(axis=(1, 2))
+            there = question.codes >= 0
+            lowest = question.codes.min(axis=(1, 2), where=there, initial=np.iinfo(np.int8).max)
+            alike = question.codes.max(axis=(1, 2)) == lowest
+            straight |= alike & (np.count_nonzero(there, axis=(1, 2)) > 1)
     return straight

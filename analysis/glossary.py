@@ -28,7 +28,7 @@ GLOSSARY = {
     "Welch": "Welch's t-test: as Student's, without assuming equal variances. R: t.test",
     "paired": "Paired t-test on the same participants' differences. R: t.test(paired = TRUE)",
     "Fisher": "Fisher's exact test as if the groups were independent. R: fisher.test",
-    "McNemar": "McNemar's exact test on the same participants' pairs of answers, in the direction expected. "
+    "McNemar": "McNemar's exact test on the same participants' pairs of answers, in the direction declared. "
     "R: binom.test on the discordant pairs",
     "mid-p": "McNemar's mid-p, two-sided: half the weight of the observed outcome, less conservative.",
     "Newcombe": "Difference of the two shares with Newcombe's hybrid score interval.",

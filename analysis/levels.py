@@ -132,17 +132,25 @@ class _Tests:
             return self._exact_paired()
         if declared.p is not None:
             return test, declared.p, None
-        if test == "independent t" and self.choices is not None:
-            return "Fisher's exact", self.choices.fisher.p, declared.reason
+        if test == "independent t":
+            return "Fisher's exact", self._fisher().p, declared.reason
         name, p, _ = self._exact_paired()
         return name, p, declared.reason
+
+    def _fisher(self) -> Fisher:
+        """Of choices; of ratings that vary in neither group, whether they are the higher of the two."""
+        if self.choices is not None:
+            return self.choices.fisher
+        x, y = (observed(sample) for sample in self.samples.values())
+        highest = np.concatenate([x, y]).max(initial=-np.inf)
+        k1, k2 = (int((sample == highest).sum()) for sample in (x, y))
+        return fisher(k1, x.size, k2, y.size, self.student.alternative)
 
     def _exact_paired(self) -> tuple[str, float | None, str | None]:
         if self.choices is None:
             return "exact sign flip", self.sign_flip.p, self.sign_flip.reason
-        one_sided = self.sign_flip.alternative != "two-sided"
         exact = self.choices.mcnemar
-        p = exact.p_one_sided if one_sided else exact.p_two_sided
+        p = exact.p(self.sign_flip.alternative)
         return "McNemar's exact", p, exact.reason if p is None else None
 
     def result(self, name: str, verdict: Verdict) -> Compared:

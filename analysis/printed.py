@@ -139,7 +139,7 @@ def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
             labels.get(key, key.capitalize()), " / ".join(found),
             apa.number(test.t), apa.degrees(test.df), _p(test.p, outcome),
             _p(one.verdict.p_adjusted, outcome), f"{apa.number(test.d)} {apa.interval(test.d_ci95)}",
-            _p(choices.mcnemar.p_one_sided if choices else one.welch.p, outcome),
+            _p(choices.mcnemar.p(outcome.judging.alternative) if choices else one.welch.p, outcome),
             f"{apa.number(choices.difference.estimate)} {apa.interval(choices.difference.ci95)}"
             if choices else f"{apa.number(test.estimate)} {apa.interval(test.ci95)}",
         ])  # fmt: skip

@@ -110,7 +110,7 @@ def confusion_csv(outcome: Levels, note: str = "") -> str:
     head = (
         "principle", "level", "n", f"{chosen}", f"{other}", f"share_{chosen}", "share_ci_low",
         "share_ci_high", "t", "df", "p", "p_adjusted", "decided_by", "d", "d_ci_low", "d_ci_high",
-        "mcnemar_p_one_sided", "mcnemar_p_mid", "fisher_p", "binomial_p",
+        "mcnemar_p", "mcnemar_p_mid", "fisher_p", "binomial_p",
     )  # fmt: skip
     rows = []
     for one in outcome.results.values():
@@ -276,8 +276,8 @@ def _tested(one: Compared) -> tuple[object, ...]:
 
 
 def _exact(choices: Choices, level: str) -> tuple[object, ...]:
-    test = choices.mcnemar
-    return test.p_one_sided, test.p_mid, choices.fisher.p, choices.binomial[level].p
+    test, exact = choices.mcnemar, choices.fisher
+    return test.p(exact.alternative), test.p_mid, exact.p, choices.binomial[level].p
 
 
 def as_csv(head: Sequence[str], rows: Iterable[Sequence[object]], note: str) -> str:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from analysis.answers import Answers
 from analysis.chance import Definition, Scores, Target, applicable
 from analysis.statistics.adjustment import Correction, adjust
@@ -152,7 +150,7 @@ def _hits(scores: Scores, alternative: Alternative) -> Binomial:
 
 def _wilcoxon(result: AgainstChance, target: Target, alternative: Alternative) -> Wilcoxon:
     scores = result.definition.scores(target)
-    return wilcoxon(np.round(scores.values - scores.null, 12), 0.0, alternative)
+    return wilcoxon(scores.values, scores.null, alternative)
 
 
 def _name(result: AgainstChance) -> str:

@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from stimuli.errors import nearest
+
 Correction = Literal["holm", "bonferroni", "benjamini-hochberg", "none"]
 Vector = NDArray[np.float64]
 
@@ -18,6 +20,8 @@ def adjust(family: Mapping[str, float | None], correction: Correction) -> dict[s
     >>> adjust({"joy": 0.01, "fear": 0.04}, "holm")
     {'joy': 0.02, 'fear': 0.04}
     """
+    if correction not in ADJUSTMENTS:
+        raise ValueError(f"correction {correction!r}: {nearest(correction, ADJUSTMENTS)}")
     names = [name for name, p in family.items() if p is not None]
     values = np.array([family[name] for name in names], dtype=float)
     adjusted = dict(zip(names, ADJUSTMENTS[correction](values, len(family)).tolist(), strict=True))

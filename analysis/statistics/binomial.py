@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import betainc, gammaln, xlog1py, xlogy
 
+from analysis.statistics.asked import refuse_impossible_count
 from analysis.statistics.clopper_pearson import clopper_pearson
-from analysis.statistics.t_test import Alternative, Interval
+from analysis.statistics.t_test import Alternative, Interval, refuse_other_sides
 from analysis.statistics.wilson import wilson
 
 
@@ -35,6 +36,10 @@ def binomial(k: int, n: int, null: float = 0.5, alternative: Alternative = "two-
     >>> round(binomial(19, 34, 0.5, "greater").p, 4)
     0.3038
     """
+    refuse_impossible_count(k, n)
+    refuse_other_sides(alternative)
+    if not 0 <= null <= 1:
+        raise ValueError(f"null {null:g} is no share, which lies between 0 and 1")
     if n == 0:
         return Binomial(k, n, None, null, None, alternative, None, None, reason="undefined: no answers")
     return Binomial(

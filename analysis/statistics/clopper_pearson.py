@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from scipy.special import betaincinv
 
+from analysis.statistics.asked import refuse_impossible_count
+
 
 def clopper_pearson(k: int, n: int, level: float = 0.95) -> tuple[float, float] | None:
     """Exact interval of k of n, by inverting two binomial tests; None for n = 0.
@@ -13,6 +15,7 @@ def clopper_pearson(k: int, n: int, level: float = 0.95) -> tuple[float, float] 
     >>> [round(limit, 3) for limit in clopper_pearson(27, 34)]
     [0.621, 0.913]
     """
+    refuse_impossible_count(k, n)
     if n == 0:
         return None
     tail = (1 - level) / 2

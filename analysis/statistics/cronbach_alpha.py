@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import fdtri
 
+from analysis.statistics.asked import as_table
+
 
 @dataclass(frozen=True)
 class CronbachAlpha:
@@ -29,7 +31,7 @@ def cronbach_alpha(ratings: ArrayLike) -> CronbachAlpha:
     >>> round(cronbach_alpha([[4, 5, 4], [2, 2, 3], [5, 4, 5], [3, 3, 2]]).estimate, 3)
     0.892
     """
-    table = np.asarray(ratings, dtype=float)
+    table = as_table(ratings, "(participants, items)")
     table = table[~np.isnan(table).any(axis=1)]
     n, k = table.shape
     if n < 2 or k < 2:

@@ -31,6 +31,8 @@ def equivalence(values: ArrayLike, bounds: tuple[float, float]) -> Equivalence:
     0.0031
     """
     low, high = bounds
+    if not low < high:
+        raise ValueError(f"bounds {low:g} and {high:g}: the first is the lower one")
     above = one_sample_t(values, low, "greater")
     below = one_sample_t(values, high, "less")
     p = None if above.p is None or below.p is None else max(above.p, below.p)

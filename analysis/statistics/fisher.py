@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import gammaln
 
-from analysis.statistics.t_test import Alternative
+from analysis.statistics.asked import refuse_impossible_count
+from analysis.statistics.t_test import Alternative, refuse_other_sides
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,9 @@ def fisher(k1: int, n1: int, k2: int, n2: int, alternative: Alternative = "two-s
     >>> round(fisher(19, 34, 10, 34, "greater").p, 4)
     0.0245
     """
+    refuse_impossible_count(k1, n1)
+    refuse_impossible_count(k2, n2)
+    refuse_other_sides(alternative)
     if n1 == 0 or n2 == 0:
         return Fisher((n1, n2), None, alternative, None, reason="undefined: a group without answers")
     k = np.arange(max(0, k1 + k2 - n2), min(n1, k1 + k2) + 1)  # the first group's yes, given the margins

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import chdtrc
 
+from analysis.statistics.asked import as_table
 from analysis.statistics.wilcoxon import middle_ranks
 
 
@@ -33,7 +34,7 @@ def friedman(ratings: ArrayLike) -> Friedman:
     >>> round(result.chi2, 3), result.df, round(result.p, 4), round(result.kendall_w, 3)
     (6.857, 2, 0.0324, 0.857)
     """
-    table = np.asarray(ratings, dtype=float)
+    table = as_table(ratings, "(participants, conditions)")
     table = table[~np.isnan(table).any(axis=1)]
     n, k = table.shape
     ranks = np.array([middle_ranks(row) for row in table]).reshape(n, k)

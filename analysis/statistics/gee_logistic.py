@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analysis.statistics.alike import alike
+from analysis.statistics.asked import refuse_other_than_yes_and_no
 from analysis.statistics.samples import observed_rows
 
 FloatArray = NDArray[np.float64]
@@ -45,6 +46,7 @@ def gee_logistic(
     (2.197, 1.778)
     """
     y, covariate, group = observed_rows(chosen, x, participants)
+    refuse_other_than_yes_and_no(y)
     n, count = y.size, int(group.max()) + 1 if group.size else 0
     for level in np.unique(covariate):
         if np.ptp(y[covariate == level]) == 0:

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import fdtri
 
+from analysis.statistics.asked import as_table
+
 ROUNDING = 1e-12  # a mean square below this share of all squares is zero but for rounding
 
 
@@ -30,7 +32,7 @@ def icc(ratings: ArrayLike) -> dict[str, Icc]:
     >>> round(icc([[4, 5, 4], [2, 2, 3], [5, 4, 5], [3, 3, 2]])["ICC2"].estimate, 3)
     0.786
     """
-    table = np.asarray(ratings, dtype=float)
+    table = as_table(ratings, "(subjects, raters)")
     table = table[~np.isnan(table).any(axis=1)]
     n, k = table.shape
     if n < 2 or k < 2 or np.ptp(table) == 0:

@@ -7,6 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analysis.statistics.asked import as_table
+
 Metric = Literal["nominal", "ordinal", "interval"]
 
 
@@ -19,7 +21,7 @@ def krippendorff_alpha(ratings: ArrayLike, metric: Metric = "ordinal") -> float 
     >>> round(krippendorff_alpha([[4, 2, 5, 3], [5, 2, 4, 3], [4, 3, 5, 2]]), 3)
     0.756
     """
-    table = np.asarray(ratings, dtype=float)
+    table = as_table(ratings, "(raters, units)")
     values = np.unique(table[~np.isnan(table)])
     counts = (table[:, :, None] == values).sum(axis=0).astype(float)  # (units, values)
     counts = counts[counts.sum(axis=1) >= 2]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit
 
 from analysis.statistics.alike import alike
+from analysis.statistics.asked import refuse_other_than_yes_and_no
 from analysis.statistics.likelihood import LARGEST, REACHES, WIDEST, minimum, standard_error
 from analysis.statistics.samples import observed_rows
 
@@ -47,6 +48,7 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
     (1.39, 1.22)
     """
     y, covariate, group = observed_rows(chosen, x, participants)
+    refuse_other_than_yes_and_no(y)
     count = int(group.max()) + 1 if group.size else 0
 
     def undefined(reason: str) -> LogisticMixed:

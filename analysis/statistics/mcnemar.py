@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from analysis.statistics.asked import refuse_other_than_yes_and_no
 from analysis.statistics.binomial import at_least, outcome_probabilities
 from analysis.statistics.clopper_pearson import clopper_pearson
 from analysis.statistics.newcombe import Difference, paired_difference
 from analysis.statistics.samples import observed_pairs
+from analysis.statistics.t_test import Alternative
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,13 @@ class McNemar:
     difference: Difference
     reason: str | None = None
 
+    def p(self, alternative: Alternative) -> float | None:
+        """The exact p-value; "greater" means more yes in the first condition, "less" in the second."""
+        if alternative == "two-sided" or self.p_two_sided is None:
+            return self.p_two_sided
+        expected = self.b if alternative == "greater" else self.c
+        return at_least(expected, self.b + self.c, 0.5)
+
 
 def mcnemar(first: ArrayLike, second: ArrayLike) -> McNemar:
     """Exact McNemar test of paired 0/1 answers (position i of both is one participant).
@@ -44,6 +53,8 @@ def mcnemar(first: ArrayLike, second: ArrayLike) -> McNemar:
     (3, 0, 0.125, 0.125)
     """
     x, y = observed_pairs(first, second)
+    refuse_other_than_yes_and_no(x)
+    refuse_other_than_yes_and_no(y)
     b, c = int(np.sum((x == 1) & (y == 0))), int(np.sum((x == 0) & (y == 1)))
     both, neither = int(np.sum((x == 1) & (y == 1))), int(np.sum((x == 0) & (y == 0)))
     return mcnemar_counts(b, c, both=both, neither=neither)

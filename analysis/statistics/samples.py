@@ -8,13 +8,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+ROUNDING = 1e-12  # of the largest value: less of a difference is none
 
 
 def observed(values: ArrayLike) -> FloatArray:
     """The values that are there: a flat float array without NaN."""
     flat: FloatArray = np.asarray(values, dtype=float).ravel()
     present: FloatArray = flat[~np.isnan(flat)]
-    return present
+    return _finite(present)
+
+
+def _finite(values: FloatArray) -> FloatArray:
+    if np.isinf(values).any():
+        raise ValueError("a value is infinite; what is missing is NaN or None")
+    return values
 
 
 def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -23,7 +30,7 @@ def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, Flo
     if a.shape != b.shape:
         raise ValueError(f"paired samples need equal lengths, got {a.size} and {b.size}")
     both = ~(np.isnan(a) | np.isnan(b))
-    return a[both], b[both]
+    return _finite(a[both]), _finite(b[both])
 
 
 def observed_rows(
@@ -31,9 +38,14 @@ def observed_rows(
 ) -> tuple[FloatArray, FloatArray, NDArray[np.intp]]:
     """Answers, their conditions and their participants, numbered from 0; without rows that miss a number."""
     answers, conditions = np.asarray(values, dtype=float).ravel(), np.asarray(x, dtype=float).ravel()
+    if not answers.size == conditions.size == np.size(participants):
+        raise ValueError(
+            "columns need equal lengths, got "
+            f"{answers.size} answers, {conditions.size} conditions, {np.size(participants)} participants"
+        )
     there = ~(np.isnan(answers) | np.isnan(conditions))
     _, people = np.unique(np.asarray(participants).ravel()[there], return_inverse=True)
-    return answers[there], conditions[there], people
+    return _finite(answers[there]), conditions[there], people
 
 
 @dataclass(frozen=True)
@@ -54,7 +66,6 @@ def moments(values: ArrayLike) -> Moments:
     mean = float(x.mean())
     if x.size == 1:
         return Moments(n=1, mean=mean, sd=None, se=None)
-    sd = (
-        0.0 if np.ptp(x) == 0 else float(x.std(ddof=1))
-    )  # the mean of equal numbers may round; their SD may not
+    alike = np.ptp(x) <= ROUNDING * np.abs(x).max()  # as 0.6 − 0.4 and 0.4 − 0.2 are
+    sd = 0.0 if alike else float(x.std(ddof=1))
     return Moments(n=x.size, mean=mean, sd=sd, se=sd / float(np.sqrt(x.size)))

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from analysis.statistics.binomial import binomial_probability
 from analysis.statistics.samples import observed
-from analysis.statistics.t_test import Alternative
+from analysis.statistics.t_test import Alternative, refuse_other_sides
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,7 @@ def sign_flip(values: ArrayLike, null: float = 0.0, alternative: Alternative = "
     >>> round(sign_flip([4, 5, 3, 4, 5, 2], 3, "greater").p, 4)
     0.125
     """
+    refuse_other_sides(alternative)
     differences = observed(values) - null
     n = differences.size
     if n == 0:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import sqrt
-from typing import Literal
+from typing import Literal, get_args
 
 from scipy.special import stdtr, stdtrit
 
 from analysis.statistics.noncentral_t import hedges_factor, ncp_interval
+from stimuli.errors import nearest
 
 Alternative = Literal["greater", "less", "two-sided"]
 Interval = tuple[float, float]
@@ -84,11 +85,18 @@ def t_test(method: Method, contrast: Contrast, null: float, alternative: Alterna
 
 def t_probability(t: float, df: float, alternative: Alternative) -> float:
     """P-value of t on df degrees of freedom; the tail is computed directly, so it keeps its digits near 0."""
+    refuse_other_sides(alternative)
     if alternative == "greater":
         return float(stdtr(df, -t))
     if alternative == "less":
         return float(stdtr(df, t))
     return float(2 * stdtr(df, -abs(t)))
+
+
+def refuse_other_sides(alternative: str) -> None:
+    """Raise ValueError unless the alternative is one of the known."""
+    if alternative not in (known := get_args(Alternative)):
+        raise ValueError(f"alternative {alternative!r}: {nearest(alternative, known)}")
 
 
 def root_mean_square(*values: float) -> float:

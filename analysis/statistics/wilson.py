@@ -6,6 +6,8 @@ from math import sqrt
 
 from scipy.special import ndtri
 
+from analysis.statistics.asked import refuse_impossible_count
+
 
 def wilson(k: int, n: int, level: float = 0.95) -> tuple[float, float] | None:
     """Score interval of k of n without continuity correction; None for n = 0.
@@ -15,6 +17,7 @@ def wilson(k: int, n: int, level: float = 0.95) -> tuple[float, float] | None:
     >>> [round(limit, 3) for limit in wilson(27, 34)]
     [0.632, 0.897]
     """
+    refuse_impossible_count(k, n)
     if n == 0:
         return None
     z = float(ndtri((1 + level) / 2))

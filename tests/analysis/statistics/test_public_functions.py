@@ -128,3 +128,32 @@ def test_rows_without_an_answer_are_left_out_of_models(name: str) -> None:
     found = fit(answers, conditions, people)
     assert found == fit(answers[there], conditions[there], people[there])
     assert found.effect is not None and found.n == 46
+
+
+REFUSED: Mapping[str, tuple[Callable[[], object], str]] = {
+    "side of t": (lambda: analysis.student_t([1, 2], [3, 5], "Greater"), "did you mean greater?"),
+    "side of ranks": (lambda: analysis.wilcoxon([1, 2], 0, "larger"), "alternative 'larger'"),
+    "side of flips": (lambda: analysis.sign_flip([1, 2], 0, "both"), "alternative 'both'"),
+    "side of a share": (lambda: analysis.binomial(1, 2, 0.5, "x"), "alternative 'x'"),
+    "side of shares": (lambda: analysis.fisher(1, 2, 1, 2, "x"), "alternative 'x'"),
+    "rule for zeros": (lambda: analysis.wilcoxon([1, 2], zeros="drop"), "zeros 'drop'"),
+    "correction": (lambda: analysis.adjust({"a": 0.1}, "holms"), "did you mean holm?"),
+    "more than all": (lambda: analysis.binomial(5, 3), "5 of 3 is no count"),
+    "fewer than none": (lambda: analysis.wilson(-1, 3), "-1 of 3 is no count"),
+    "half a count": (lambda: analysis.clopper_pearson(1.5, 3), "1.5 of 3 is no count"),
+    "count of a group": (lambda: analysis.fisher(1, 2, 4, 3), "4 of 3 is no count"),
+    "share above 1": (lambda: analysis.binomial(1, 3, 1.5), "null 1.5 is no share"),
+    "rating as choice": (lambda: analysis.mcnemar([1, 4], [0, 1]), "1 for yes and 0 for no, not 4"),
+    "rating in a model": (lambda: analysis.gee_logistic([1, 4], [0, 1], [1, 1]), "not 4"),
+    "columns of two lengths": (lambda: analysis.gee_logistic([1, 0, 1], [0, 1], [1, 1]), "got 3 answers"),
+    "infinite": (lambda: analysis.one_sample_t([1, math.inf], 3), "infinite"),
+    "no table": (lambda: analysis.cronbach_alpha([1, 2, 3]), r"needs a table \(participants, items\)"),
+    "bounds": (lambda: analysis.equivalence([1, 2, 3], (4, 2)), "the first is the lower one"),
+}
+
+
+@pytest.mark.parametrize("asked", REFUSED)
+def test_what_cannot_be_asked_is_refused(asked: str) -> None:
+    call, says = REFUSED[asked]
+    with pytest.raises(ValueError, match=says.replace("?", r"\?")):
+        call()

@@ -88,3 +88,9 @@ def test_adjusting_never_lowers_a_probability_nor_changes_their_order(
     adjusted = list(adjust({str(i): value for i, value in enumerate(p)}, correction).values())  # type: ignore[arg-type]
     assert all(after >= before * (1 - 1e-12) for before, after in zip(p, adjusted, strict=True))
     assert np.all(np.diff(np.array(adjusted)[np.argsort(p, kind="stable")]) >= -1e-12)
+
+
+def test_rounding_breaks_no_tie_of_differences() -> None:
+    first, second = np.array([3, 2, 4, 5, 1, 2]), np.array([2, 1, 3, 3, 2, 2])  # 0.6 − 0.4 is not 0.4 − 0.2
+    assert wilcoxon(first / 5 - second / 5) == wilcoxon(first - second)
+    assert wilcoxon([0.1 + 0.2, 0.3], 0.3).zeros == 2

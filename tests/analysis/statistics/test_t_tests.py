@@ -195,3 +195,13 @@ def test_the_interval_of_a_large_effect_in_few_participants_agrees_with_r() -> N
     # R: f <- function(p, l, h) uniroot(function(n) pt(20, 5, n) - p, c(l, h), tol = 1e-12)$root
     #    c(f(.975, 5, 20), f(.025, 20, 36))
     assert ncp_interval(20, 5) == pytest.approx((7.9619655544, 32.177843773), rel=1e-8)
+
+
+def test_differences_equal_but_for_rounding_have_no_variance() -> None:
+    # R: t.test(c(.6, .4, .8), c(.4, .2, .6), paired = TRUE) stops: data are essentially constant
+    found = paired_t([0.6, 0.4, 0.8], [0.4, 0.2, 0.6])
+    assert (found.t, found.d, found.reason) == (
+        None,
+        None,
+        "undefined: zero variance of the differences, every difference is 0.2",
+    )

@@ -1,0 +1,42 @@
+"""Two levels or modulations compared: which test decides, and in which direction."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from analysis.answers import Answers, Codes
+from analysis.levels import Compared, Comparison, comparisons
+from analysis.statistics.t_test import Alternative
+from analysis.target import Judging
+
+
+def compared(
+    codes: Codes, test: str, alternative: Alternative, options: tuple[str, ...], outcome: str | None = None
+) -> Compared:
+    """The first clip against the second, (participants, 2)."""
+    people = tuple(map(str, range(len(codes))))
+    answers = Answers("part", people, ("one", "two"), ("item",), options, codes[:, :, None].astype(np.int8))
+    comparison = Comparison(("one", "two"), {"pair": ("one", "two")}, "item", outcome)
+    return comparisons(answers, comparison, Judging(test, alternative, "none", 0.05))["pair"]
+
+
+@pytest.mark.parametrize(
+    ("alternative", "p"),
+    [("greater", 1 - 1 / 1024), ("less", 11 / 1024), ("two-sided", 22 / 1024)],  # R: binom.test(1, 10, .5)
+)
+def test_mcnemars_test_decides_in_the_declared_direction(alternative: Alternative, p: float) -> None:
+    codes = np.array([[1, 0]] * 1 + [[0, 1]] * 9 + [[1, 1]] * 3)
+    found = compared(codes, "mcnemar", alternative, ("no", "yes"), "yes")
+    assert (found.verdict.test, found.verdict.p) == ("McNemar's exact", pytest.approx(p))
+
+
+@pytest.mark.parametrize(("alternative", "p"), [("greater", 1 / 70), ("less", 1.0), ("two-sided", 2 / 70)])
+def test_two_groups_without_variance_are_decided_by_their_permutations(
+    alternative: Alternative, p: float
+) -> None:
+    """Of the 70 ways to deal eight answers to two groups of four, one sets all the higher in the first."""
+    codes = np.array([[4, -1]] * 4 + [[-1, 1]] * 4)
+    found = compared(codes, "independent t", alternative, tuple("12345"))
+    assert (found.verdict.test, found.verdict.p) == ("Fisher's exact", pytest.approx(p))
+    assert found.deciding_t.reason == "undefined: zero variance in both groups"
