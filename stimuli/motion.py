@@ -21,6 +21,9 @@ DEMONSTRATED = (
 )  # limits that a demonstration is held to; its accelerations may be noise
 
 
+LEAST_STEPS = 10  # of a motion; in fewer its speeds would not show
+
+
 @dataclass(frozen=True)
 class Motion:
     """What the robot does in a stimulus, and what it was shown."""
@@ -42,6 +45,10 @@ def generate(spec: StimulusSpec, robot: Robot) -> Motion:
             f"{spec.gesture}: the demonstration itself exceeds what {robot.name} can do: {in_short(beyond)}"
         )
     primitive, modulation = Primitive.learn(demonstration, spec.learning), spec.modulation
+    tau_s = primitive.course(modulation, robot).tau_s
+    if tau_s < LEAST_STEPS * spec.learning.dt_s:
+        least = f"less than {LEAST_STEPS} steps of {spec.learning.dt_s:g} s; take a larger time.intensity"
+        raise InputError(f"{spec.id}: lasts {tau_s:.2g} s, {least}")
     try:
         trajectory = primitive.rollout(modulation, robot)
         exceeded = violations(trajectory, robot)

@@ -5,11 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
+
+Camera = Literal["auto", "head", "upper_body", "full_body", "wide"]
+"""The scene's presets, closest first; auto: the closest in which no motion leaves the frame."""
 
 MOTION = "motion/3"
 """Names the way from a demonstration to a motion; whoever changes what comes out changes the name."""

@@ -58,8 +58,7 @@ def keep_version(protocol: Protocol, manifest: Manifest, data: Path) -> None:
     shutil.rmtree(unfinished, ignore_errors=True)
     unfinished.mkdir(parents=True)
     for name in protocol.files:
-        within = not Path(name).is_absolute() and ".." not in Path(name).parts
-        if within and (protocol.folder / name).is_file():
+        if not Path(name).is_absolute() and (protocol.folder / name).is_file():
             (unfinished / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(protocol.folder / name, unfinished / name)
     shutil.copyfile(protocol.path, unfinished / "protocol.yaml")

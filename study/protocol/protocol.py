@@ -15,6 +15,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr, field_validator, model
 
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
+from stimuli.spec import Camera
 from study.protocol.amendments import Amendment
 from study.protocol.modulations import read_levels, read_modulations
 from study.protocol.pairs import Pair, paired
@@ -53,7 +54,7 @@ class Video(Written):
 
     size: str = Field("1280x720", pattern=r"^[1-9]\d{1,3}x[1-9]\d{1,3}$")
     fps: int = Field(30, ge=1, le=120)
-    camera: str = "auto"
+    camera: Camera = "auto"
     lead_in: Seconds = 0.5
     hold: Seconds = 0.5
     replays: int | None = Field(None, ge=0)  # of a clip watched in full; any number unless told

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from study.protocol.contradiction import Contradiction, unknown
 from study.protocol.hypotheses import hypotheses
@@ -16,11 +17,14 @@ from study.questions.prefer import Prefer
 from study.text import Text
 from study.written import Location
 
+LEAVES = "leaves the study's folder; copy it there, so that the study can be kept whole and handed on"
+
 
 def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
     """Everything in a protocol that does not fit together."""
     lost = [*_stimuli(protocol), *_practice(protocol)]
     yield from lost
+    yield from _files(protocol)
     yield from _texts(protocol)
     yield from _questions(protocol)
     yield from _conditions(protocol)
@@ -167,6 +171,17 @@ def _attention(protocol: Protocol) -> Iterator[Contradiction]:
         yield ("participants", "exclude", "failed_attention"), f"is more than the attention checks: {checks}"
 
 
+def _files(protocol: Protocol) -> Iterator[Contradiction]:
+    """Gestures that would be missing from the copy kept of what participants began with."""
+    for name, gesture in protocol.gestures.items():
+        if _leaves_the_folder(gesture.file):
+            yield ("gestures", name), LEAVES
+
+
+def _leaves_the_folder(file: Path) -> bool:
+    return ".." in file.parts
+
+
 def _texts(protocol: Protocol) -> Iterator[Contradiction]:
     texts: list[tuple[Location, Text]] = [
         (("texts", name), text) for name, text in protocol.written_texts if text is not None
@@ -179,6 +194,9 @@ def _texts(protocol: Protocol) -> Iterator[Contradiction]:
     for here, text in texts:
         for language, file in files_named_in(text, protocol.folder).items():
             place: Location = (*here, language) if language else here
+            if _leaves_the_folder(file.relative_to(protocol.folder)):
+                yield place, LEAVES
+                continue
             try:
                 file.read_text(encoding="utf-8")
             except OSError as error:

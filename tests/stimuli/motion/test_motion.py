@@ -44,6 +44,11 @@ def spec(tmp_path):
     return make
 
 
+def test_a_motion_too_short_to_tell_its_speed_is_refused(spec, robot):
+    with pytest.raises(InputError, match=r"lasts 0\.002 s, less than 10 steps of 0\.01 s; take a larger time"):
+        generate(spec(time=0.001), robot)
+
+
 def test_a_plain_stimulus_moves_as_demonstrated(spec, robot):
     motion = generate(spec(), robot)
     assert motion.trajectory.duration_s == pytest.approx(2.0, abs=0.2)

@@ -2,11 +2,14 @@
 
 import json
 from pathlib import Path
+from typing import get_args
 
 import pytest
 import yaml
 
 from stimuli.principles import Modulation
+from stimuli.scene import PRESETS
+from stimuli.spec import Camera
 from study.protocol import ProtocolError, load_protocol
 
 PAPER = Path(__file__).parents[3] / "protocols" / "hielscher2025"
@@ -229,3 +232,19 @@ def test_the_shipped_consent_names_who_is_responsible_and_the_approval_where_the
         assert f"**{approval}.** 2026-017" in told.in_(language)
         assert responsible not in open_.in_(language) and approval not in open_.in_(language)
         assert "hri-lab@example.org" in open_.in_(language)
+
+
+def test_files_outside_the_folder_are_refused_as_no_copy_of_the_study_would_have_them(load, written):
+    written["gestures"]["wave"] = "../shared/wave.yaml"
+    written["texts"] = {"consent": {"en": "../shared/consent.md", "de": "Ja"}}
+    with pytest.raises(ProtocolError) as refused:
+        load(written)
+    assert [p.field for p in refused.value.problems] == ["gestures.wave", "texts.consent.en"]
+    assert all("leaves the study's folder; copy it there" in p.message for p in refused.value.problems)
+
+
+def test_a_camera_is_one_of_the_scenes(load, written):
+    written["video"]["camera"] = "fullbody"
+    with pytest.raises(ProtocolError, match=r"video\.camera: 'fullbody' will not do; did you mean full_body\?"):
+        load(written)
+    assert get_args(Camera) == ("auto", *PRESETS)
