@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,9 +19,19 @@ WIDTH_IN, HEIGHT_IN, MARGIN_IN = 210 / 25.4, 297 / 25.4, 0.85  # A4
 TEXT_IN = WIDTH_IN - 2 * MARGIN_IN
 LEADING, ASCENT = 1.42, 0.76  # height of a line, and of a letter above its baseline, in font sizes
 FIGURE_IN = 4.7  # width of a figure on a page
-BELOW_IN = 0.07  # below a paragraph
+BELOW_IN = 0.07  # below a paragraph and a figure
 TALLEST_IN = HEIGHT_IN - 2 * MARGIN_IN - 1.5  # a figure that leaves room for its heading and caption
+SHRINKS = 0.35  # of its height, which a figure gives up to stand on this page still
 TABLE_PT, GAP_IN = 7.5, 0.1  # size of the text of a table; the least between two of its columns
+
+
+@dataclass(frozen=True)
+class Block:
+    """Something that is painted in one piece, as high as it is told."""
+
+    height: float  # inches
+    paint: Callable[[float], None]
+    spare: float = 0.0  # how much lower it may be
 
 
 class Pages:
@@ -35,7 +46,7 @@ class Pages:
         self.page: Figure | None = None
         self.number = 0
         self.y = 0.0  # inches above the lower edge
-        self.waiting: list[tuple[float, Callable[[], None]]] = []  # blocks kept with what comes next
+        self.waiting: list[Block] = []  # blocks kept with what comes next
 
     def __enter__(self) -> Pages:
         from matplotlib.backends.backend_pdf import PdfPages
@@ -59,24 +70,26 @@ class Pages:
         lines = [*_wrapped(unbroken(text), size=size, bold=bold)]
         height = size / 72 * LEADING
 
-        def paint() -> None:
+        def paint(_: float) -> None:
             for line in lines:
                 self._room(height)
                 self._text(MARGIN_IN, line, size=size, bold=bold, colour=colour)
                 self.y -= height
             self.y -= BELOW_IN
 
-        self._place(height * len(lines) + BELOW_IN, paint, with_next=with_next)
+        self._place(Block(height * len(lines) + BELOW_IN, paint), with_next=with_next)
 
     def heading(self, text: str, *, size: float = 12.5) -> None:
         """A heading, on the page of what comes next."""
-        self._place(0.14, partial(self._down, 0.14), with_next=True)
+        self._place(Block(0.14, self._down), with_next=True)
         self.write(text, size=size, bold=True, with_next=True)
 
     def draw(self, drawing: Drawing) -> None:
-        """A figure with its caption."""
+        """A figure with its caption, lower where it would else leave half a page empty."""
         height = min(drawing.height_in * FIGURE_IN / 3.5 * 0.9, TALLEST_IN)
-        self._place(height + 0.08, partial(self._paint, drawing, height), with_next=True)
+        self._place(
+            Block(height + BELOW_IN, partial(self._paint, drawing), spare=SHRINKS * height), with_next=True
+        )
         self.write(drawing.caption, size=7.5, colour=FAINT)
 
     def tabulate(self, head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
@@ -85,7 +98,7 @@ class Pages:
         height = TABLE_PT / 72 * 1.75
         widths, size = _columns([head, *body])
 
-        def paint() -> None:
+        def paint(_: float) -> None:
             self._row(head, widths, size=size, bold=True)
             self._rule()
             for row in body:
@@ -94,24 +107,33 @@ class Pages:
                 self.y -= height
             self.y -= 0.12
 
-        self._place(height * min(len(body) + 2, 12), paint)
+        self._place(Block(height * min(len(body) + 2, 12), paint))
 
-    def _place(self, height: float, paint: Callable[[], None], *, with_next: bool = False) -> None:
+    def _place(self, block: Block, *, with_next: bool = False) -> None:
         """Paint a block and those that wait for it, all on one page if a page can hold them."""
-        self.waiting.append((height, paint))
+        self.waiting.append(block)
         if not with_next:
-            self._room(sum(height for height, _ in self.waiting))
-            for _, paint_one in self.waiting:
-                paint_one()
+            for one in self._fitted(self.waiting):
+                one.paint(one.height)
             self.waiting.clear()
+
+    def _fitted(self, blocks: Sequence[Block]) -> Sequence[Block]:
+        """The blocks as high as this page lets them, if they can spare so much; else as they are, on the next."""
+        lacking = sum(block.height for block in blocks) - (self.y - MARGIN_IN)
+        spare = sum(block.spare for block in blocks)
+        if 0 < lacking <= spare:
+            return [replace(block, height=block.height - lacking * block.spare / spare) for block in blocks]
+        self._room(sum(block.height for block in blocks))
+        return blocks
 
     def _down(self, height: float) -> None:
         self.y -= height
 
-    def _paint(self, drawing: Drawing, height: float) -> None:
+    def _paint(self, drawing: Drawing, room: float) -> None:
         from matplotlib.gridspec import GridSpec
 
         assert self.page is not None
+        height = room - BELOW_IN
         left = (WIDTH_IN - FIGURE_IN) / 2
         grid = GridSpec(
             3, 3, self.page, width_ratios=[left, FIGURE_IN, left],
@@ -123,7 +145,7 @@ class Pages:
             axes.set_position(laid_out.get_position())
         if height < drawing.height_in:  # the margins of the taller figure are too narrow
             lay_out(self.page)
-        self.y -= height + 0.08
+        self.y -= room
 
     def _row(self, cells: Sequence[str], widths: Sequence[float], *, size: float, bold: bool = False) -> None:
         right = MARGIN_IN

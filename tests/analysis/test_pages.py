@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from analysis.drawing import Drawing
 from analysis.line import Line
-from analysis.pages import Pages
+from analysis.pages import MARGIN_IN, Pages
 
 LONG = "a sentence of many words, some of them iiiiiiii and some WWWWWWWW, p = .014, 95% CI [0.06, 1.03] " * 4
 NAMES = ["Rating", "means", "t", "df", "d [95% CI]", "difference [95% CI]"]
@@ -39,6 +39,18 @@ def test_a_heading_stands_on_the_page_of_its_figure_and_the_caption_too(tmp_path
         assert "Effect sizes" in here and "How they were tested." in here
         assert any(text.startswith("a sentence") for text in here)
         assert pages.number - before <= 1
+
+
+def test_a_figure_is_drawn_lower_rather_than_leave_half_a_page_empty(tmp_path: Path) -> None:
+    figure = Drawing(name="f", paint=lambda figure: None, height_in=3, caption="Its caption.", alt="")
+    with Pages(tmp_path / "p.pdf", "T", "") as pages:
+        while pages.y > 4.5:
+            pages.write("filled")
+        pages.heading("Effect sizes")
+        pages.draw(figure)
+        assert pages.number == 1
+        assert {"Effect sizes", "Its caption."} < set(texts(pages))
+        assert pages.y >= MARGIN_IN - 0.01
 
 
 def test_a_figure_taller_than_a_page_is_drawn_smaller(tmp_path: Path) -> None:
