@@ -40,6 +40,9 @@ DoorOption = Annotated[
     Literal["open", "link", "kiosk"],
     typer.Option("--door", help="Who may begin: anybody; only who is invited; or, in a laboratory, by key."),
 ]
+Port = Annotated[
+    int, typer.Option("--port", min=0, max=65535, help="Where to listen; 0 for any that is free.")
+]
 Workers = Annotated[
     int | None, typer.Option("--workers", min=1, help="Processes that render; one per core unless told.")
 ]

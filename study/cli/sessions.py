@@ -15,6 +15,7 @@ from study.cli.command import (
     Database,
     DoorOption,
     Out,
+    Port,
     ProtocolPath,
     Workers,
     app,
@@ -36,7 +37,7 @@ def run(
     data: Data = None,
     workers: Workers = None,
     host: str = "127.0.0.1",
-    port: int = 8000,
+    port: Port = 8000,
     door: DoorOption = "open",
 ) -> None:
     """Render what is missing, then serve the study."""
@@ -53,7 +54,7 @@ def serve(
     data: Data = None,
     database: Database = None,
     host: str = "127.0.0.1",
-    port: int = 8000,
+    port: Port = 8000,
     door: DoorOption = "open",
     test: Annotated[
         bool, typer.Option("--test", help="Try the study out: answers are marked and kept apart.")

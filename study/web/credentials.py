@@ -11,6 +11,8 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Literal, cast, get_args
 
+from stimuli.errors import InputError
+from stimuli.whole_files import whole_or_nothing
 from study.participants import LETTERS
 
 Role = Literal["edit", "view"]
@@ -111,11 +113,18 @@ def open_credentials(folder: Path) -> tuple[Credentials, Passwords | None]:
     """The credentials kept in a folder, and at the first start, when they are made, the passwords."""
     file = folder / "experimenter.json"
     if file.is_file():
-        kept = json.loads(file.read_text())
-        return Credentials(**{name: bytes.fromhex(value) for name, value in kept.items()}), None
+        try:
+            kept = json.loads(file.read_text())
+            return Credentials(**{name: bytes.fromhex(value) for name, value in kept.items()}), None
+        except (ValueError, TypeError, AttributeError) as err:
+            message = (
+                f"{file}: is damaged. Delete it and start again: new passwords are made, and shown once."
+            )
+            raise InputError(message) from err
     passwords = new_passwords()
     made = new_credentials(passwords)
     folder.mkdir(parents=True, exist_ok=True)
-    file.touch(mode=0o600)
-    file.write_text(json.dumps({name: value.hex() for name, value in vars(made).items()}, indent=2))
+    with whole_or_nothing(file) as partial:
+        partial.touch(mode=0o600)
+        partial.write_text(json.dumps({name: value.hex() for name, value in vars(made).items()}, indent=2))
     return made, passwords

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 import shlex
 import signal
 import socket
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -19,6 +20,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from stimuli.errors import InputError
+from stimuli.manifest import sha256_of
 from study.participants import Kind
 from study.storage import Store, open_store
 from study.storage.backups import BackupTimer, back_up
@@ -28,6 +30,7 @@ from study.web.credentials import Passwords, open_credentials
 from study.web.site import Door, Site, clips_of, utc_now
 
 if TYPE_CHECKING:
+    from stimuli.manifest import Clip as ManifestClip
     from stimuli.manifest import Manifest
     from study.protocol import Protocol
 
@@ -68,38 +71,55 @@ def serve(
     Answers are kept in `data_folder` (SQLite), or in the database at `url`. With `kind="test"` whoever enters
     without a link is a test, kept apart from the data. `analyse` makes the report the experimenter may see.
     """
-    missing = [stimulus for stimulus in protocol.stimuli if stimulus not in manifest.clips]
-    if missing:
-        raise InputError(
-            f"{clips_folder}: {len(missing)} of {len(protocol.stimuli)} clips are not there "
-            f"({', '.join(missing[:5])}{' …' if len(missing) > 5 else ''}). "
-            f"Run `study render {shlex.quote(str(protocol.path))}` first."
-        )
+    _require_clips(protocol, manifest, clips_folder)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # what stops services ends it like Ctrl-C
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
     backups = _backups(store, data_folder / "backups")
-    with closing(store), store.held(), backups or nullcontext():
-        credentials, passwords = open_credentials(data_folder)
+    with closing(store), store.held(), backups or nullcontext(), closing(_listener(host, port)) as listener:
         refuse_undeclared(protocol, store.protocol_hashes())
-        clips = clips_of(manifest, clips_folder)
         keep_version(protocol, manifest, data_folder)
+        earlier = list(earlier_versions(protocol, data_folder))
+        credentials, passwords = open_credentials(data_folder)  # last: passwords that are made are also shown
         site = Site(
             protocol,
             store,
-            clips,
+            clips_of(manifest, clips_folder),
             credentials,
             SOFTWARE,
             kind=kind,
             door=door,
             analyse=analyse,
             backup_fault=lambda: backups.fault if backups else None,
-        ).with_earlier(earlier_versions(protocol, data_folder), clips_folder)
-        server, listener = _server(create_app(site), host, port)
+        ).with_earlier(earlier, clips_folder)
+        server = _server(create_app(site))
         address = f"http://{_reached_by(host)}:{listener.getsockname()[1]}"
         links = Links(f"{address}/", f"{address}/experimenter", passwords)
         threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
         with suppress(KeyboardInterrupt):  # uvicorn finishes what is under way and raises the signal again
             server.run(sockets=[listener])
+
+
+def _require_clips(protocol: Protocol, manifest: Manifest, folder: Path) -> None:
+    faults = [
+        f"{stimulus}: {fault}"
+        for stimulus in protocol.stimuli
+        if (fault := _clip_fault(manifest.clips.get(stimulus), folder))
+    ]
+    if faults:
+        raise InputError(
+            f"{folder}: {len(faults)} of {len(protocol.stimuli)} clips are not there as rendered "
+            f"({', '.join(faults[:5])}{' …' if len(faults) > 5 else ''}). "
+            f"Run `study render {shlex.quote(str(protocol.path))}` first."
+        )
+
+
+def _clip_fault(clip: ManifestClip | None, folder: Path) -> str | None:
+    """Why a clip must not be served: participants would see nothing, another one, or a file from elsewhere."""
+    if clip is None or not (file := folder / clip.file).is_file():
+        return "missing"
+    if file.resolve().parent != folder.resolve():
+        return "a link to another folder"
+    return None if sha256_of(file) == clip.file_sha256 else "changed"
 
 
 def _reached_by(host: str) -> str:
@@ -123,7 +143,7 @@ def _backups(store: Store, folder: Path) -> BackupTimer | None:
 @contextmanager
 def running(app: FastAPI, *, host: str = "127.0.0.1", port: int = 0) -> Iterator[str]:
     """Serve an application in a thread for as long as the block lasts; gives its address."""
-    server, listener = _server(app, host, port)
+    server, listener = _server(app), _listener(host, port)
     thread = threading.Thread(target=lambda: server.run(sockets=[listener]))
     thread.start()
     try:
@@ -135,14 +155,19 @@ def running(app: FastAPI, *, host: str = "127.0.0.1", port: int = 0) -> Iterator
         listener.close()
 
 
-def _server(app: FastAPI, host: str, port: int) -> tuple[uvicorn.Server, socket.socket]:
+def _listener(host: str, port: int) -> socket.socket:
     listener = socket.socket(proto=socket.IPPROTO_TCP)  # else asyncio leaves Nagle's delay on: 40 ms a page
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((host, port))
     except OSError as err:
         listener.close()
-        raise InputError(f"--host {host} --port {port}: {err.strerror}. Is another study running?") from err
+        hint = " Is another study running?" if err.errno == errno.EADDRINUSE else ""
+        raise InputError(f"--host {host} --port {port}: {err.strerror}.{hint}") from err
+    return listener
+
+
+def _server(app: FastAPI) -> uvicorn.Server:
     config = uvicorn.Config(
         app,
         log_level="warning",
@@ -155,7 +180,7 @@ def _server(app: FastAPI, host: str, port: int) -> tuple[uvicorn.Server, socket.
     gc.set_threshold(COLLECT_AFTER)
     server = uvicorn.Server(config)
     app.state.is_stopping = lambda: server.should_exit
-    return server, listener
+    return server
 
 
 def _when_started(server: uvicorn.Server, then: Callable[[], None]) -> None:

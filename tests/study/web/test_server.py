@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -21,6 +23,7 @@ from stimuli.manifest import Manifest
 from study.protocol import Protocol
 from study.storage import open_store
 from study.web import serve
+from study.web.credentials import open_credentials
 from study.web.site import Clip
 
 SERVE = """
@@ -159,3 +162,40 @@ def test_a_manifest_names_files_of_its_own_folder_only(manifest: Manifest, tmp_p
     (tmp_path / "manifest.json").write_text(told)
     with pytest.raises(InputError, match="this is not a manifest of clips"):
         Manifest.load(tmp_path)
+
+
+def test_passwords_are_not_made_where_nobody_is_shown_them(
+    protocol: Protocol, manifest: Manifest, video_folder: Path, tmp_path: Path
+) -> None:
+    with socket.socket() as other, pytest.raises(InputError, match="Is another study running"):
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        serve(
+            protocol,
+            manifest,
+            clips_folder=video_folder,
+            data_folder=tmp_path / "data",
+            announce=print,
+            port=other.getsockname()[1],
+        )
+    assert not (tmp_path / "data" / "experimenter.json").exists()
+
+
+@pytest.mark.parametrize("ill", ["missing", "a link to another folder", "changed"])
+def test_clips_that_are_not_as_rendered_are_not_served(
+    protocol: Protocol, manifest: Manifest, video_folder: Path, tmp_path: Path, ill: str
+) -> None:
+    folder = shutil.copytree(video_folder, tmp_path / "clips")
+    (folder / "joy.mp4").unlink()
+    if ill == "a link to another folder":
+        (folder / "joy.mp4").symlink_to(video_folder / "joy.mp4")
+    elif ill == "changed":
+        (folder / "joy.mp4").write_bytes(b"")
+    with pytest.raises(InputError, match=rf"1 of 6 clips are not there as rendered \(joy: {ill}\)"):
+        serve(protocol, manifest, clips_folder=folder, data_folder=tmp_path / "data", announce=print)
+
+
+def test_damaged_credentials_are_said_and_half_written_ones_not_left(tmp_path: Path) -> None:
+    (tmp_path / "experimenter.json").write_text("")
+    with pytest.raises(InputError, match=r"experimenter.json: is damaged\. Delete it"):
+        open_credentials(tmp_path)
