@@ -20,6 +20,7 @@ class Relaxed:
     assumes: str
     test: str
     otherwise: tuple[str, ...]  # whose decision it turns round
+    undefined: bool  # for all
 
 
 def relaxed(outcome: Outcome) -> Iterator[Relaxed]:
@@ -27,10 +28,9 @@ def relaxed(outcome: Outcome) -> Iterator[Relaxed]:
     for assumes, test, probabilities in _tests(outcome):
         verdicts = judge(outcome.judging, {key: (test, p, None) for key, p in probabilities.items()})
         decided = {key: one.verdict.significant for key, one in outcome.results.items()}
-        turned = (key for key, one in verdicts.items() if one.significant is not None)
-        yield Relaxed(
-            assumes, test, tuple(key for key in turned if verdicts[key].significant != decided[key])
-        )
+        told = {key: one.significant for key, one in verdicts.items() if one.significant is not None}
+        otherwise = tuple(key for key, significant in told.items() if significant != decided[key])
+        yield Relaxed(assumes, test, otherwise, undefined=not told)
 
 
 def _tests(outcome: Outcome) -> Iterator[tuple[str, str, Probabilities]]:

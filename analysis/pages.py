@@ -118,7 +118,7 @@ class Pages:
             self.waiting.clear()
 
     def _fitted(self, blocks: Sequence[Block]) -> Sequence[Block]:
-        """The blocks as high as this page lets them, if they can spare so much; else as they are, on the next."""
+        """The blocks as high as this page lets them, if they can spare so much; else whole, on the next."""
         lacking = sum(block.height for block in blocks) - (self.y - MARGIN_IN)
         spare = sum(block.spare for block in blocks)
         if 0 < lacking <= spare:

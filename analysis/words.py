@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from analysis import apa
-from analysis.assumptions import relaxed
+from analysis.assumptions import Relaxed, relaxed
 from analysis.further import Further
 from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Outcome, Preferences, Targets
@@ -141,12 +141,14 @@ def _assumes(name: str, outcome: Outcome) -> Iterator[str]:
 
 def assumptions(outcome: Outcome) -> str:
     """What the declared test assumes, and what tests without it decide; empty for exact tests."""
-    found = [
-        f"{one.assumes} ({one.test}: "
-        + (f"otherwise for {', '.join(one.otherwise)})" if one.otherwise else "the same)")
-        for one in relaxed(outcome)
-    ]
+    found = [f"{one.assumes} ({one.test}: {_decided(one)})" for one in relaxed(outcome)]
     return f"Assumed, and decided by tests without: {'; '.join(found)}." if found else ""
+
+
+def _decided(one: Relaxed) -> str:
+    if one.undefined:
+        return "undefined"
+    return f"otherwise for {', '.join(one.otherwise)}" if one.otherwise else "the same"
 
 
 def claim(protocol: Protocol, name: str, outcome: Outcome) -> str:

@@ -6,19 +6,23 @@ import numpy as np
 import pytest
 
 from analysis.answers import Answers, Codes
-from analysis.levels import Compared, Comparison, comparisons
+from analysis.levels import Comparison, comparisons
+from analysis.plan import Levels
 from analysis.statistics.t_test import Alternative
 from analysis.target import Judging
+from analysis.words import assumptions
 
 
-def compared(
+def levels(
     codes: Codes, test: str, alternative: Alternative, options: tuple[str, ...], outcome: str | None = None
-) -> Compared:
+) -> Levels:
     """The first clip against the second, (participants, 2)."""
     people = tuple(map(str, range(len(codes))))
     answers = Answers("part", people, ("one", "two"), ("item",), options, codes[:, :, None].astype(np.int8))
     comparison = Comparison(("one", "two"), {"pair": ("one", "two")}, "item", outcome)
-    return comparisons(answers, comparison, Judging(test, alternative, "none", 0.05))["pair"]
+    judging = Judging(test, alternative, "none", 0.05)
+    found = comparisons(answers, comparison, judging)
+    return Levels("H1", "part", None, "part", answers, judging, comparison, found)
 
 
 @pytest.mark.parametrize(
@@ -27,7 +31,7 @@ def compared(
 )
 def test_mcnemars_test_decides_in_the_declared_direction(alternative: Alternative, p: float) -> None:
     codes = np.array([[1, 0]] * 1 + [[0, 1]] * 9 + [[1, 1]] * 3)
-    found = compared(codes, "mcnemar", alternative, ("no", "yes"), "yes")
+    found = levels(codes, "mcnemar", alternative, ("no", "yes"), "yes").results["pair"]
     assert (found.verdict.test, found.verdict.p) == ("McNemar's exact", pytest.approx(p))
 
 
@@ -37,6 +41,14 @@ def test_two_groups_without_variance_are_decided_by_their_permutations(
 ) -> None:
     """Of the 70 ways to deal eight answers to two groups of four, one sets all the higher in the first."""
     codes = np.array([[4, -1]] * 4 + [[-1, 1]] * 4)
-    found = compared(codes, "independent t", alternative, tuple("12345"))
+    found = levels(codes, "independent t", alternative, tuple("12345")).results["pair"]
     assert (found.verdict.test, found.verdict.p) == ("Fisher's exact", pytest.approx(p))
     assert found.deciding_t.reason == "undefined: zero variance in both groups"
+
+
+def test_a_test_that_is_undefined_confirms_nothing() -> None:
+    codes = np.array([[4, -1]] * 4 + [[-1, 1]] * 4)
+    found = levels(codes, "independent t", "greater", tuple("12345"))
+    assert "equal variances (Welch's t: undefined)" in assumptions(found)
+    choices = np.array([[1, 0]] * 8)
+    assert assumptions(levels(choices, "mcnemar", "greater", ("no", "yes"), "yes")) == ""
