@@ -71,8 +71,9 @@ Ends = Annotated[tuple[Text, Text], BeforeValidator(_texts), WithJsonSchema(_TEX
 def _named_texts(value: Any) -> Any:
     """Read `[joy, anger]` as names that are their own text."""
     if isinstance(value, list):
-        if len(set(map(str, value))) < len(value):
-            raise wrong("names something twice")
+        names = list(map(str, value))
+        if twice := [name for at, name in enumerate(names) if name in names[:at]]:
+            raise wrong(f"names {twice[0]} twice")
         return {str(name): str(name) for name in value}
     return value
 

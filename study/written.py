@@ -15,7 +15,36 @@ from stimuli.errors import nearest
 Location = tuple[str | int, ...]  # keys and indices from the top of a value to something in it
 
 
+A_NAME = r"^[A-Za-z][A-Za-z0-9_-]*$"
+AN_ITEM = r"^[a-z][a-z0-9_]*$"
+A_HYPOTHESIS = r"^[A-Za-z][A-Za-z0-9_.-]*$"
+A_LANGUAGE = r"^[a-z]{2,3}(-[A-Z]{2})?$"
+A_SIZE = r"^[1-9]\d{1,3}x[1-9]\d{1,3}$"
+A_HASH = r"^[0-9a-f]{12,64}$"
+
+_SHAPES = {  # what to say of text that does not match
+    A_NAME: "must begin with a letter from a to z, with letters, digits, - and _ after it",
+    AN_ITEM: "must begin with a small letter from a to z, with small letters, digits and _ after it",
+    A_HYPOTHESIS: "must begin with a letter from a to z, with letters, digits, . - and _ after it",
+    A_LANGUAGE: "must be a language's code, such as en, de or pt-BR",
+    A_SIZE: "must be width and height in pixels, such as 1280x720",
+    A_HASH: "must be the first 12 or more characters of a protocol's hash, as the server's refusal has them",
+}
+
+_MEANT = {  # what others call it
+    "counterbalanced": "williams",
+    "fdr": "benjamini-hochberg",
+    "holm-bonferroni": "holm",
+    "likert": "rate",
+    "random": "shuffled",
+    "randomised": "shuffled",
+    "randomized": "shuffled",
+    "vas": "slider",
+}
+
 NAME = "name"  # type of errors about a field's name rather than its value
+
+_KEY = "[key]"  # Pydantic's way to say that a name is at fault
 
 
 def wrong(message: str, kind: str = "value") -> PydanticCustomError:
@@ -73,43 +102,59 @@ def reworded(error: ValidationError, fields: Iterable[str]) -> list[InitErrorDet
 
 
 def _reworded(detail: ErrorDetails, fields: Iterable[str]) -> InitErrorDetails:
-    kind = NAME if detail["type"] in {NAME, "extra_forbidden", "missing"} else "value"
-    return {"type": wrong(_message(detail, fields), kind), "loc": detail["loc"], "input": detail["input"]}
+    at = detail["loc"]
+    of_name = bool(at) and at[-1] == _KEY
+    kind = NAME if of_name or detail["type"] in {NAME, "extra_forbidden", "missing"} else "value"
+    place = at[:-1] if of_name else at
+    return {"type": wrong(_message(detail, fields), kind), "loc": place, "input": detail["input"]}
+
+
+def meant(name: object, known: Iterable[str]) -> str:
+    """Say which of the known names was meant, also by who knows it under another."""
+    return nearest(_MEANT.get(str(name).lower(), name), known)
+
+
+_WORDS = {  # by Pydantic's types of errors, which speak of Python rather than of the file
+    "missing": "is missing",
+    "string_too_short": "must not be empty",
+    "string_too_long": "must have no more than {max_length} characters",
+    "too_long": "must have no more than {max_length}",
+    "model_type": "must be a mapping (name: value)",
+    "dict_type": "must be a mapping (name: value)",
+    "int_type": "must be a whole number",
+    "int_from_float": "must be a whole number",
+    "int_parsing": "must be a whole number",
+    "float_type": "must be a number",
+    "float_parsing": "must be a number",
+    "bool_type": "must be true or false",
+    "bool_parsing": "must be true or false",
+    "none_required": "must be left empty",
+    "greater_than": "must be more than {gt:g}",
+    "less_than": "must be less than {lt:g}",
+    "greater_than_equal": "must be at least {ge:g}",
+    "less_than_equal": "must be at most {le:g}",
+}
 
 
 def _message(detail: ErrorDetails, fields: Iterable[str]) -> str:
-    """Reword pydantic's message where it speaks of Python rather than of the file."""
-    if len(detail["loc"]) == 1 and detail["type"] == "extra_forbidden":
+    """What is wrong with a value, and what would do."""
+    kind, given, bounds = detail["type"], detail["input"], detail.get("ctx", {})
+    if len(detail["loc"]) == 1 and kind == "extra_forbidden":
         return f"is no field here; {nearest(detail['loc'][0], fields)}"
-    reworded = {
-        "missing": "is missing",
-        "too_short": "must not be empty",
-        "string_too_short": "must not be empty",
-        "model_type": "must be a mapping (name: value)",
-        "dict_type": "must be a mapping (name: value)",
-        "list_type": "must be a list",
-        "tuple_type": "must be a list",
-        "string_type": "must be text",
-        "int_type": "must be a whole number",
-        "int_from_float": "must be a whole number",
-        "int_parsing": "must be a whole number",
-        "float_type": "must be a number",
-        "float_parsing": "must be a number",
-        "bool_type": "must be true or false",
-        "bool_parsing": "must be true or false",
-        "none_required": "must be left empty",
-    }
-    if detail["type"] in reworded:
-        return reworded[detail["type"]]
-    if detail["type"] == "literal_error":
-        names = re.findall(r"'([^']*)'", detail["ctx"]["expected"])
-        return f"will not do; {nearest(detail['input'], names)}"
-    return (
-        detail["msg"]
-        .removeprefix("Value error, ")
-        .replace("Input should be", "must be")
-        .replace("String should", "must")
-    )
+    message = _WORDS.get(kind, "").format(**bounds)
+    if kind == "literal_error":
+        names = re.findall(r"'([^']*)'", bounds["expected"])
+        message = f"will not do; {meant(given, names)}"
+    elif kind == "string_type":
+        message = 'must be text; put it into "quotes"' if isinstance(given, (int, float)) else "must be text"
+    elif kind in {"list_type", "tuple_type"}:
+        message = f"must be a list, such as [{given}]" if isinstance(given, str) else "must be a list"
+    elif kind == "too_short":
+        least = bounds["min_length"]
+        message = "must not be empty" if least == 1 else f"needs at least {least}"
+    elif kind == "string_pattern_mismatch":
+        message = _SHAPES[bounds["pattern"]]
+    return message or detail["msg"].removeprefix("Value error, ")
 
 
 _SECONDS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0, "d": 86_400.0}

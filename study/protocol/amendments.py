@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
-from study.written import Written, wrong
+from study.written import A_HASH, Written, wrong
 
 SHORT = 12  # characters of a hash that are enough to know it by
 
@@ -17,7 +17,7 @@ class Amendment(Written):
 
     date: datetime.date
     reason: Annotated[str, Field(min_length=1)]
-    replaces: Annotated[str, Field(pattern=r"^[0-9a-f]{12,64}$")]  # hash of the protocol before the change
+    replaces: Annotated[str, Field(pattern=A_HASH)]  # hash of the protocol before the change
 
     @field_validator("date", mode="before")
     @classmethod

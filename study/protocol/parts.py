@@ -15,9 +15,9 @@ from study.protocol.stimulus import Alike, Stimulus
 from study.questions import Asked, Question
 from study.questions.scale import Scale
 from study.text import Text
-from study.written import Written, wrong, wrong_at
+from study.written import A_NAME, Written, wrong, wrong_at
 
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
+Name = Annotated[str, Field(pattern=A_NAME, max_length=60)]
 Method = Literal["williams", "latin square", "shuffled", "fixed", "between participants"]
 
 BETWEEN: Literal["between participants"] = "between participants"  # each participant sees but one

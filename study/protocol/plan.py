@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, ConfigDict, Field, model_validator
 from stimuli.errors import nearest
 from study.protocol.recorded import Recorded
 from study.protocol.recruitment import Recruitment
-from study.written import Seconds, Written, wrong
+from study.written import A_HYPOTHESIS, Seconds, Written, wrong
 
 Probability = Annotated[float, Field(gt=0, lt=1)]
 Test = Literal["one-sample t", "independent t", "paired t", "wilcoxon", "mcnemar", "binomial"]
@@ -85,7 +85,7 @@ class Hypothesis(Written):
         return self
 
 
-HypothesisName = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=60)]  # names files
+HypothesisName = Annotated[str, Field(pattern=A_HYPOTHESIS, max_length=60)]  # names files
 
 
 class Analysis(Written):

@@ -44,15 +44,15 @@ from study.protocol.texts import (
 )
 from study.questions import Asked
 from study.text import Text
-from study.written import Location, Seconds, Written, wrong
+from study.written import A_LANGUAGE, A_SIZE, Location, Seconds, Written, wrong
 
-Language = Annotated[str, Field(pattern=r"^[a-z]{2,3}(-[A-Z]{2})?$")]
+Language = Annotated[str, Field(pattern=A_LANGUAGE)]
 
 
 class Video(Written):
     """Size, timing and framing, the same for every clip of a study."""
 
-    size: str = Field("1280x720", pattern=r"^[1-9]\d{1,3}x[1-9]\d{1,3}$")
+    size: str = Field("1280x720", pattern=A_SIZE)
     fps: int = Field(30, ge=1, le=120)
     camera: Camera = "auto"
     lead_in: Seconds = 0.5

@@ -11,9 +11,8 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, SerializeAsAny, ValidationError, WithJsonSchema
 
-from stimuli.errors import nearest
 from study.questions.question import AnswerError, Question
-from study.written import NAME, refusal, relocated, wrong, wrong_at
+from study.written import NAME, meant, refusal, relocated, wrong, wrong_at
 
 __all__ = ["ANY_QUESTION", "QUESTIONS", "AnswerError", "Asked", "Question"]
 
@@ -33,7 +32,7 @@ def _read(value: Any) -> Question:
         raise wrong(f"must be one question, written {{kind: …}}; kinds: {', '.join(QUESTIONS)}")
     ((kind, body),) = value.items()
     if kind not in QUESTIONS:
-        raise wrong_at((kind,), f"is no kind of question; {nearest(kind, QUESTIONS)}", body, NAME)
+        raise wrong_at((kind,), f"is no kind of question; {meant(kind, QUESTIONS)}", body, NAME)
     try:
         return QUESTIONS[kind].model_validate(body)
     except ValidationError as error:

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from stimuli.errors import nearest
 from study.questions.choice import Choice
-from study.written import wrong_at
+from study.written import AN_ITEM, wrong_at
 
 
 class Attention(Choice):
@@ -20,7 +20,7 @@ class Attention(Choice):
     """
 
     kind: ClassVar[str] = "attention"
-    item: str = Field("attention", pattern=r"^[a-z][a-z0-9_]*$")
+    item: str = Field("attention", pattern=AN_ITEM)
     expected: str
     at: tuple[Annotated[int, Field(ge=1)], ...] | None = Field(None, min_length=1)  # trials; all, unless told
 

@@ -8,12 +8,13 @@ from pydantic import Field
 
 from study.questions.question import Question
 from study.text import NamedTexts, Text
+from study.written import AN_ITEM
 
 
 class Choice(Question):
     """One of several options, in the order written."""
 
-    item: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    item: str = Field(pattern=AN_ITEM)
     options: NamedTexts = Field(min_length=2)
 
     @property

@@ -8,13 +8,14 @@ from pydantic import Field
 
 from study.designs import williams
 from study.questions.choice import Choice
+from study.written import AN_ITEM
 
 
 class Choose(Choice):
     """A forced choice. With balanced sides each option stands in each place for equally many participants."""
 
     kind: ClassVar[str] = "choose"
-    item: str = Field("choice", pattern=r"^[a-z][a-z0-9_]*$")
+    item: str = Field("choice", pattern=AN_ITEM)
     sides: Literal["fixed", "balanced"] = "fixed"
 
     @property

@@ -11,14 +11,14 @@ from pydantic import Field, model_validator
 
 from study.questions.question import AnswerError, Question
 from study.text import Text
-from study.written import wrong_at
+from study.written import AN_ITEM, wrong_at
 
 
 class Number(Question):
     """A field for a number with its bounds and unit."""
 
     kind: ClassVar[str] = "number"
-    item: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    item: str = Field(pattern=AN_ITEM)
     least: float | None = None
     most: float | None = None
     whole: bool = False

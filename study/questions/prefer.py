@@ -9,13 +9,14 @@ from pydantic import Field, PrivateAttr
 
 from study.questions.question import Question
 from study.text import Text
+from study.written import AN_ITEM
 
 
 class Prefer(Question):
     """A paired comparison, answered by the id of the stimulus that was chosen. For parts with `pairs`."""
 
     kind: ClassVar[str] = "prefer"
-    item: str = Field("preferred", pattern=r"^[a-z][a-z0-9_]*$")
+    item: str = Field("preferred", pattern=AN_ITEM)
 
     _stimuli: tuple[str, ...] = PrivateAttr(())
 

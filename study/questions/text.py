@@ -10,13 +10,14 @@ from pydantic import Field
 
 from study.questions.question import AnswerError, Question
 from study.text import Text
+from study.written import AN_ITEM
 
 
 class FreeText(Question):
     """A field for words of one's own."""
 
     kind: ClassVar[str] = "text"
-    item: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    item: str = Field(pattern=AN_ITEM)
     longest: int = Field(2000, ge=1, le=10_000)  # characters
 
     @property

@@ -68,8 +68,8 @@ def test_every_error_is_said_at_once_and_at_its_place(load):
         "7:36 modulations.joy.exa: 'high' must be a number",
         "12:12 parts.one.order: 'wiliams' will not do; did you mean williams?",
         "14:9 parts.one.ask[0].rat: is no kind of question; did you mean rate?",
-        "15:49 parts.one.ask[1].rate.points: '99' must be less than or equal to 11",
-        "16:25 participants.planned: '0' must be greater than or equal to 1",
+        "15:49 parts.one.ask[1].rate.points: '99' must be at most 11",
+        "16:25 participants.planned: '0' must be at least 1",
     ]
 
 
@@ -245,6 +245,43 @@ def test_files_outside_the_folder_are_refused_as_no_copy_of_the_study_would_have
 
 def test_a_camera_is_one_of_the_scenes(load, written):
     written["video"]["camera"] = "fullbody"
-    with pytest.raises(ProtocolError, match=r"video\.camera: 'fullbody' will not do; did you mean full_body\?"):
+    with pytest.raises(
+        ProtocolError, match=r"video\.camera: 'fullbody' will not do; did you mean full_body\?"
+    ):
         load(written)
     assert get_args(Camera) == ("auto", *PRESETS)
+
+
+@pytest.mark.parametrize(
+    ("where", "value", "message"),
+    [
+        ("analysis.H1.correction", "Holm-Bonferroni", "will not do; did you mean holm?"),
+        ("analysis.H2.1.compare", ["high", "low", "medium"], "must have no more than 2"),
+        ("analysis.H2.1.outcome", 7, 'must be text; put it into "quotes"'),
+        ("parts.recognition.order", "randomised", "will not do; did you mean shuffled?"),
+        ("parts.recognition.ask.0", {"likert": {}}, "is no kind of question; did you mean rate?"),
+        ("parts.intensity.ask.0.choose.options", ["one"], "needs at least 2"),
+        ("parts.intensity.ask.0.choose.options", ["one", "one"], "names one twice"),
+        ("authors", "Ada", "must be a list, such as [Ada]"),
+        ("video.size", "1280×720", "must be width and height in pixels, such as 1280x720"),
+        ("study", "My study", "must begin with a letter from a to z, with letters, digits, - and _ after it"),
+        ("seed", -1, "must be at least 0"),
+    ],
+)
+def test_a_value_that_will_not_do_is_told_what_would(load, written, where, value, message):
+    *way, last = where.replace("H2.1", "H2!1").split(".")
+    place = written
+    for step in way:
+        place = place[int(step)] if isinstance(place, list) else place[step.replace("!", ".")]
+    place[int(last) if isinstance(place, list) else last] = value
+    with pytest.raises(ProtocolError) as refused:
+        load(written)
+    assert refused.value.problems[0].message.endswith(message)
+
+
+def test_a_name_that_is_none_is_refused_at_the_name(load, written):
+    written["levels"] |= {"very calm": [1, 2, 3]}
+    written["parts"] |= {"one more": {}}
+    with pytest.raises(ProtocolError) as refused:
+        load(written)
+    assert "parts.one more" in {p.field for p in refused.value.problems}
