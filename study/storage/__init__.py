@@ -10,7 +10,7 @@ import importlib
 import pkgutil
 
 from sqlalchemy import make_url
-from sqlalchemy.exc import ArgumentError
+from sqlalchemy.exc import ArgumentError, DBAPIError
 
 from stimuli.errors import InputError
 from study.storage.database import Database
@@ -37,4 +37,7 @@ def open_store(url: str) -> Store:
     if kind not in databases():
         raise InputError(f"{url!r}: {kind!r} databases are not known. Known: {', '.join(databases())}.")
     database: Database = importlib.import_module(f"{__name__}.{kind}").open_database(parsed)
-    return Store(database)
+    try:
+        return Store(database)
+    except DBAPIError as err:
+        raise InputError(f"{parsed}: cannot be opened: {' '.join(str(err.orig).split())}") from err

@@ -57,6 +57,7 @@ def restore(backup: Path, database: Path) -> None:
         raise InputError(f"{backup}: is no backup of a study ({err}).") from err
     if verdict != "ok":
         raise InputError(f"{backup}: is damaged ({verdict}). Take an older one.")
+    database.parent.mkdir(parents=True, exist_ok=True)  # on a new machine there is none yet
     with held(database):
         gone = withdrawals(database)
         copy_database(backup, database)

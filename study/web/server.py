@@ -9,7 +9,7 @@ import signal
 import socket
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -114,7 +114,7 @@ def _require_clips(protocol: Protocol, manifest: Manifest, folder: Path) -> None
 
 
 def _clip_fault(clip: ManifestClip | None, folder: Path) -> str | None:
-    """Why a clip must not be served: participants would see nothing, another one, or a file from elsewhere."""
+    """Why a clip must not be served: they would see nothing, another one, or a file from elsewhere."""
     if clip is None or not (file := folder / clip.file).is_file():
         return "missing"
     if file.resolve().parent != folder.resolve():

@@ -42,6 +42,12 @@ def test_what_is_restored_is_what_was_backed_up(tmp_path: Path) -> None:
     assert len(then) == 3
 
 
+def test_a_backup_is_restored_where_there_was_nothing_yet(tmp_path: Path) -> None:
+    open_store(f"sqlite:///{tmp_path}/study.db").close()
+    restore(tmp_path / "study.db", tmp_path / "new machine" / "data" / "study.db")
+    open_store(f"sqlite:///{tmp_path}/new machine/data/study.db").close()
+
+
 def test_a_backup_made_while_others_write_is_whole(tmp_path: Path) -> None:
     file = tmp_path / "study.db"
     store = open_store(f"sqlite:///{file}")
