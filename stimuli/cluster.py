@@ -6,6 +6,7 @@ the user's own needs its files under the same path on every machine.
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -18,6 +19,7 @@ from stimuli.robots.model import Robot
 from stimuli.spec import MOTION, StimulusSpec
 from stimuli.whole_files import whole_or_nothing
 
+ADDRESS = re.compile(r"\w+://\S+|\S+:\d+")
 CONNECT_S = 10
 RETRIES = 1  # of a clip whose worker was lost
 
@@ -32,6 +34,11 @@ def film_on_cluster(
         raise InputError(
             "--scheduler needs Dask: pip install 'expressive-motion-study[cluster]', here and on the workers"
         ) from error
+    if not ADDRESS.fullmatch(scheduler):
+        raise InputError(
+            f"--scheduler {scheduler}: is no address of a scheduler; `dask scheduler` prints one, such as "
+            "tcp://10.0.0.1:8786"
+        )
     try:
         client = Client(scheduler, timeout=CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as error:

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOVES = 0.005  # of a joint's range: joints that move less are left out
-COLUMNS = 3
+COLUMNS = 3  # of panels at most
+LEAST_IN = 6.0  # width that title and legend take beside each other
 SHOWN = {
     "rad": ("°", np.degrees(1.0)),
     "m": ("cm", 100.0),
@@ -39,9 +40,11 @@ def curves(motion: Motion, robot: Robot, *, title: str) -> Figure:
         for name in dict.fromkeys((*made.joints, *shown.joints))
     }
     names = [name for name, span in spans.items() if span > MOVES * robot.joint(name).range]
-    rows = max(1, -(-len(names) // COLUMNS))
-    figure = Figure(figsize=(3.6 * COLUMNS, 0.7 + 2.0 * rows), layout="constrained")
-    panels = figure.subplots(rows, COLUMNS, squeeze=False, sharex=True).ravel()
+    columns = min(max(len(names), 1), COLUMNS)
+    rows = max(1, -(-len(names) // columns))
+    width_in = max(3.6 * columns, LEAST_IN)
+    figure = Figure(figsize=(width_in, 0.7 + 2.0 * rows), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False, sharex=True).ravel()
     for panel, name in zip(panels, names, strict=False):
         joint = robot.joint(name)
         unit, scale = SHOWN[joint.unit]
@@ -56,7 +59,7 @@ def curves(motion: Motion, robot: Robot, *, title: str) -> Figure:
         panel.spines[["top", "right"]].set_visible(False)
     for panel in panels[len(names) :]:
         panel.set_visible(False)
-    for panel in panels[max(0, len(names) - COLUMNS) : len(names)]:
+    for panel in panels[max(0, len(names) - columns) : len(names)]:
         panel.tick_params(labelbottom=True)
         panel.set_xlabel("time (s)")
     if names:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from stimuli.backends import backends
 from stimuli.errors import InputError
 
 State = Literal["good", "warning", "bad"]
@@ -74,13 +75,11 @@ def examine(
 
 
 def _drawing(env: Mapping[str, str]) -> list[Line]:
-    chosen = env.get("MUJOCO_GL", "")
-    if chosen not in ("", *PACKAGES):
-        remedy = "Unset MUJOCO_GL, or set it to egl or osmesa."
-        return [
-            Line("bad", "drawing", f"MUJOCO_GL is {chosen!r}, which cannot draw without a screen", remedy)
-        ]
-    tried = {backend: _probe(backend, env) for backend in ([chosen] if chosen else PACKAGES)}
+    try:
+        tried = {backend: _probe(backend, env) for backend in backends(env)}
+    except InputError as error:
+        found, _, remedy = str(error).partition(". ")
+        return [Line("bad", "drawing", found, remedy)]
     works = {backend: name for backend, (name, _) in tried.items() if name}
     lacks = [
         Line("warning" if works else "bad", f"drawing through {backend}", problem, _remedy(backend, env))

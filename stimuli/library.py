@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from stimuli.backends import backends
 from stimuli.filming import Filmed
 from stimuli.manifest import Clip, Framing, Manifest, sha256_of
 from stimuli.robots.model import Robot
@@ -45,6 +46,7 @@ def render_missing(
 
     One worker a core of this machine, or the workers of the Dask cluster whose scheduler has that address.
     """
+    backends(os.environ)  # a wrong one is said before MuJoCo is imported, which would fail
     folder.mkdir(parents=True, exist_ok=True)
     sweep(folder)
     manifest = Manifest.load(folder)

@@ -10,6 +10,8 @@ from xml.parsers import expat
 
 import yaml
 
+from stimuli.errors import InputError
+
 
 def line_of(node: yaml.Node | None, location: Sequence[Any]) -> int:
     """Line in the file, from 1, of the innermost entry on the way to a location."""
@@ -26,6 +28,22 @@ def line_of(node: yaml.Node | None, location: Sequence[Any]) -> int:
         else:
             break
     return line
+
+
+def refuse_doubles(node: yaml.Node | None, path: Path) -> None:
+    """InputError where a name stands twice in a mapping: which was meant is not for us to say."""
+    if isinstance(node, yaml.SequenceNode):
+        for value in node.value:
+            refuse_doubles(value, path)
+    elif isinstance(node, yaml.MappingNode):
+        first: dict[str, int] = {}
+        for key, value in node.value:
+            name, line = str(key.value), key.start_mark.line + 1
+            if name in first:
+                said = f"{name} stands there twice, first in line {first[name]}; keep one of them"
+                raise InputError(f"{path}:{line}: {said}")
+            first[name] = line
+            refuse_doubles(value, path)
 
 
 def read_xml(path: Path) -> tuple[ET.Element, Mapping[ET.Element, int]]:

@@ -28,14 +28,13 @@ from scipy.interpolate import BPoly, PchipInterpolator
 
 from stimuli.errors import InputError, nearest
 from stimuli.gestures.reading import (
-    each_once,
     in_joint_unit,
     known_joint,
     read_text,
     sampled_times,
     whole_body,
 )
-from stimuli.lines import line_of
+from stimuli.lines import line_of, refuse_doubles
 from stimuli.robots.model import Joint, Robot
 from stimuli.trajectory import FloatArray, Trajectory
 from stimuli.units import TIME, in_base_unit
@@ -76,6 +75,7 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
     text = read_text(path)
     try:
         tree = yaml.compose(text, Loader=yaml.CSafeLoader)
+        refuse_doubles(tree, path)
         frames = Keyframes.model_validate(yaml.load(text, Loader=yaml.CSafeLoader))
     except (yaml.YAMLError, RecursionError) as err:
         raise InputError(f"{path}: not readable as YAML: {err}") from err
@@ -87,7 +87,6 @@ def read(path: Path, robot: Robot, dt_s: float) -> Trajectory:
             f"{place}: the gesture is for {frames.robot}, not {robot.name}; "
             "leave the line out where it suits both"
         )
-    each_once(_names(tree, "joints"), f"{path}:{line_of(tree, ('joints',))}: joints")
     times = sampled_times(frames.duration, dt_s, f"{path}:{line_of(tree, ('duration',))}: duration")
     moving = {}
     for name, keys in frames.joints.items():

@@ -5,10 +5,12 @@ A packaged robot `name` is `name.yaml` (its facts) beside `name.py` with `load()
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 
+from stimuli.backends import backends
 from stimuli.errors import InputError, nearest
 from stimuli.robots.model import Robot
 
@@ -26,6 +28,7 @@ def load_robot(name_or_path: str, base: Path) -> Robot:
     if name_or_path in ROBOTS:
         robot: Robot = import_module(f"{__name__}.{name_or_path}").load()
         return robot
+    backends(os.environ)  # a wrong one is said before MuJoCo is imported, which would fail
     if name_or_path.endswith((".yaml", ".yml")):
         from stimuli.robots.files import read_robot
 

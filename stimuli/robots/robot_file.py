@@ -25,10 +25,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import yaml
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PositiveFloat, ValidationError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PositiveFloat,
+    ValidationError,
+)
 
 from stimuli.errors import InputError, nearest
-from stimuli.lines import line_of
+from stimuli.lines import line_of, refuse_doubles
 from stimuli.robots.model import Relation, View
 
 if TYPE_CHECKING:
@@ -52,6 +60,12 @@ def _fields_of(kind: type[View | Relation]) -> BeforeValidator:
     return BeforeValidator(refuse)
 
 
+def _above_the_floor(view: View) -> View:
+    if not 0 <= view.elevation_deg <= 90:
+        raise ValueError(f"elevation_deg is {view.elevation_deg:g}; it lies from 0, level, to 90, from above")
+    return view
+
+
 class RobotFile(BaseModel):
     """What the file says."""
 
@@ -66,7 +80,7 @@ class RobotFile(BaseModel):
     hands: tuple[str, ...] = ()
     head: str | None = None
     relations: tuple[Annotated[Relation, _fields_of(Relation)], ...] | None = None
-    camera: Annotated[View, _fields_of(View)] = View()
+    camera: Annotated[View, _fields_of(View), AfterValidator(_above_the_floor)] = View()
     look: Mapping[str, Colour] = Field(default_factory=dict)
 
 
@@ -74,13 +88,14 @@ def read_robot_file(path: Path) -> tuple[RobotFile, Place]:
     """What a file says, and where. InputError where it cannot be read or says something else."""
     try:
         text = path.read_text(encoding="utf-8")
-        place = partial(_place, path, yaml.compose(text, Loader=yaml.SafeLoader))
-        return RobotFile.model_validate(yaml.safe_load(text)), place
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        tree = yaml.compose(text, Loader=yaml.SafeLoader)
+        refuse_doubles(tree, path)
+        return RobotFile.model_validate(yaml.safe_load(text)), partial(_place, path, tree)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError) as error:
         raise InputError(f"{path}: cannot be read as a robot file: {error}") from error
     except ValidationError as error:
         first = error.errors()[0]
-        raise InputError(f"{place(first['loc'])}: {_wrong(first)}") from error
+        raise InputError(f"{_place(path, tree, first['loc'])}: {_wrong(first)}") from error
 
 
 def check_names(facts: RobotFile, joints: Sequence[str], links: Sequence[str], place: Place) -> None:

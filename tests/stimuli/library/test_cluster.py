@@ -53,6 +53,13 @@ def test_a_cluster_with_other_software_is_refused(
         render_missing([spec("one")], {"pepper": pepper}, tmp_path, scheduler=address)
 
 
+def test_what_is_no_address_of_a_scheduler_is_said_at_once(
+    spec: MakeSpec, pepper: Robot, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=r"--scheduler 10\.0\.0\.1: .* such as tcp://10\.0\.0\.1:8786"):
+        render_missing([spec("one")], {"pepper": pepper}, tmp_path, scheduler="10.0.0.1")
+
+
 def test_a_scheduler_that_is_not_there_is_named(
     spec: MakeSpec, pepper: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

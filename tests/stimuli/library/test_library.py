@@ -22,6 +22,7 @@ from stimuli.filming import render_clip
 from stimuli.library import Progress, render_missing
 from stimuli.manifest import Manifest
 from stimuli.motion import generate
+from stimuli.robots import load_robot
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec, Video
 from stimuli.video import frame_positions
@@ -176,6 +177,18 @@ def test_a_broken_manifest_is_named_with_the_way_out(tmp_path: Path) -> None:
     (tmp_path / "manifest.json").write_text('{"stimuli": 3}')
     with pytest.raises(InputError, match=r"manifest\.json: this is not a manifest.*Delete it"):
         Manifest.load(tmp_path)
+
+
+@pytest.mark.parametrize("backend", ["foo", "glfw"])
+def test_a_wrong_backend_is_said_before_anything_is_drawn(
+    backend: str, pepper: Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MUJOCO_GL", backend)
+    said = rf"^MUJOCO_GL is '{backend}', .* egl or osmesa"
+    with pytest.raises(InputError, match=said):
+        render_missing([], {"pepper": pepper}, tmp_path)
+    with pytest.raises(InputError, match=said):
+        load_robot("robot.yaml", tmp_path)
 
 
 def test_leftovers_of_running_processes_are_not_swept_away(

@@ -69,6 +69,8 @@ def test_the_curves_show_the_joints_that_move_demonstrated_and_made(
     figure = curves(motion, pepper, title="slow")
     panels = [panel for panel in figure.axes if panel.get_visible()]
     assert [panel.get_title(loc="left") for panel in panels] == ["HeadPitch (°)"]
+    left, right = panels[0].get_subplotspec().get_position(figure).intervalx
+    assert right - left > 0.5  # a single panel fills the picture
     demonstrated, made = panels[0].get_lines()[:2]
     assert (demonstrated.get_linestyle(), made.get_linestyle()) == ("--", "-")
     np.testing.assert_allclose(made.get_ydata(), np.degrees(motion.trajectory.joint("HeadPitch")))

@@ -103,6 +103,14 @@ def test_what_cannot_be_used_is_said_with_its_place(tmp_path: Path) -> None:
         match=r"robot\.yaml:4: home\.lfit: 'lfit' is no joint that moves by itself; did you mean lift\?",
     ):
         load_robot(name, tmp_path)
+    for wrong, message in (
+        ("home: {lift: 0.1}\n", r"robot\.yaml:6: home stands there twice, first in line 4"),
+        ("camera: {elevation_deg: -20}\n", r"robot\.yaml:6: camera: elevation_deg is -20; it lies from 0"),
+        ("look: " + "[" * 5000, r"robot\.yaml: cannot be read"),
+    ):
+        (tmp_path / name).write_text(YAML.format(model="two.urdf") + wrong)
+        with pytest.raises(InputError, match=message):
+            load_robot(name, tmp_path)
     ball = (
         '<mujoco><worldbody><body><joint name="b" type="ball"/><geom size=".1"/></body></worldbody></mujoco>'
     )
