@@ -9,12 +9,14 @@ of participants who prefer the first, by the exact binomial test.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import stats
 
 from study.protocol import Hypothesis, Protocol
@@ -40,7 +42,8 @@ class Power:
     def __str__(self) -> str:
         if self.smallest is None:
             return f"{self.n} participants cannot reach a power of {AIM:.0%} at alpha {self.alpha:.3g}"
-        found = f"d ≥ {self.smallest:.2f}" if self.effect == "d" else f"a share ≥ {self.smallest:.2f}"
+        name = "d" if self.effect == "d" else "a share"
+        found = f"{name} ≥ {math.ceil(100 * self.smallest) / 100:.2f}"  # rounded up, or it would not be found
         return f"{self.n} participants find {found} with a power of {AIM:.0%}"
 
     @property
@@ -88,28 +91,24 @@ def mcnemar_power(n: int, first: float, second: float, alpha: float, *, two_side
     if changed == 0:
         return 0.0
     one_sided = alpha / 2 if two_sided else alpha
-    pairs = range(n + 1)  # participants who answer differently for the two levels
-    rejected = np.array([_rejected(m, gained / changed, one_sided) for m in pairs])
+    pairs = np.arange(n + 1)  # participants who answer differently for the two levels
+    rejected = _rejected(pairs, gained / changed, one_sided)
     return float(stats.binom.pmf(pairs, n, changed) @ rejected)
 
 
 def preference_power(n: int, share: float, alpha: float, *, two_sided: bool = False) -> float:
     """Exact power of the binomial test against one half; of a two-sided one both tails count."""
     if not two_sided:
-        return _rejected(n, share, alpha)
-    return _rejected(n, share, alpha / 2) + _rejected(n, 1 - share, alpha / 2)
+        return float(_rejected(np.array(n), share, alpha))
+    both = (_rejected(np.array(n), first, alpha / 2) for first in (share, 1 - share))
+    return float(sum(both))
 
 
-def _rejected(m: int, gained: float, alpha: float) -> float:
+def _rejected(m: NDArray[np.int_], gained: float, alpha: float) -> NDArray[np.float64]:
     """The chance that m pairs reject the null of equal halves, in favour of more gains."""
-    return float(stats.binom.sf(_critical(m, alpha) - 1, m, gained))
-
-
-@cache
-def _critical(m: int, alpha: float) -> int:
-    """The smallest number of gains among m pairs that is significant; m + 1 where none is."""
-    tails = stats.binom.sf(np.arange(m + 1) - 1, m, 0.5)
-    return int(np.argmax(tails <= alpha)) if tails[-1] <= alpha else m + 1
+    too_few = stats.binom.isf(alpha, m, 0.5)  # gains that are not yet significant
+    rejected: NDArray[np.float64] = stats.binom.sf(too_few, m, gained)
+    return rejected
 
 
 def family_size(protocol: Protocol, hypothesis: Hypothesis) -> int:
@@ -151,6 +150,8 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
         )
     elif effect == "d" and hypothesis.test in {"wilcoxon", "binomial"}:
         basis = ", reckoned as for a t-test"
+    elif hypothesis.test == "paired t" and effect == "d":
+        basis = ", in standard deviations of the differences"
     return Power(
         hypothesis=name,
         n=n,
@@ -164,21 +165,26 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
 
 
 def smallest_effect(at: Callable[[float], float], low: float = 0.0, high: float = 5.0) -> float | None:
-    """The smallest effect with enough power, by bisection to 0.001."""
+    """The smallest effect with enough power, by bisection to a millionth."""
     if at(high) < AIM:
         return None
-    while high - low > 0.001:
+    while high - low > 1e-6:
         middle = (low + high) / 2
         low, high = (low, middle) if at(middle) >= AIM else (middle, high)
     return high
 
 
 def participants_needed(at: Callable[[int], float]) -> int | None:
-    """The number of participants from which on the power suffices; None beyond 2000."""
+    """The number of participants from which on the power suffices; None beyond 2000.
+
+    The power of exact tests goes up and down a little with every participant: after the number that bisection
+    finds, the last that does not suffice is looked for.
+    """
     low, high = 2, MAX_PARTICIPANTS
     if at(high) < AIM:
         return None
     while low < high:
         middle = (low + high) // 2
         low, high = (low, middle) if at(middle) >= AIM else (middle + 1, high)
-    return high
+    too_few = [n for n in range(high, high + high // 4 + 20) if at(n) < AIM]
+    return too_few[-1] + 1 if too_few else high

@@ -7,7 +7,15 @@ import pytest
 from scipy.stats import binom, binomtest
 from statsmodels.stats.power import TTestIndPower, TTestPower
 
-from study.power import AIM, mcnemar_power, participants_needed, power, smallest_effect, t_power
+from study.power import (
+    AIM,
+    mcnemar_power,
+    participants_needed,
+    power,
+    preference_power,
+    smallest_effect,
+    t_power,
+)
 from study.protocol import load_protocol
 
 PAPER = load_protocol(Path(__file__).parents[2] / "protocols" / "hielscher2025")
@@ -49,6 +57,23 @@ def test_mcnemar_power_agrees_with_counting_every_outcome(n, first, second):
         if b + c <= n and b + c > 0 and binomtest(b, b + c, 0.5, alternative="greater").pvalue <= 0.05:
             total += binom.pmf(b, n, gain) * binom.pmf(c, n - b, loss / (1 - gain) if gain < 1 else 0)
     assert mcnemar_power(n, first, second, 0.05) == pytest.approx(total, abs=1e-12)
+
+
+@pytest.mark.parametrize(("share", "needed"), [(0.6, 169), (0.7, 42), (0.8, 18)])
+def test_from_the_number_needed_on_an_exact_test_has_the_power(share, needed):
+    def at(n):
+        critical = next(k for k in range(n + 2) if k > n or binomtest(k, n, 0.5, "greater").pvalue <= 0.05)
+        return binom.sf(critical - 1, n, share)
+
+    assert participants_needed(lambda n: preference_power(n, share, 0.05)) == needed
+    assert at(needed - 1) < AIM <= min(at(n) for n in range(needed, needed + 12))
+
+
+def test_the_effect_that_is_printed_is_found():
+    for found in power(PAPER):
+        assert found.smallest is not None
+        printed = float(str(found).split("≥ ")[1].split()[0])
+        assert 0 <= printed - found.smallest < 0.01
 
 
 def test_without_an_effect_power_is_at_most_alpha():
