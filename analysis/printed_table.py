@@ -17,6 +17,7 @@ MEANS = {"mean", "m"}
 SPREADS, SIZES = {"sd", "s.d."}, {"n"}  # beside means
 OTHER = re.compile(
     r"(?i)s\.?d\.?|s\.?e\.?(m\.?)?|n|t|df|p|d|g|f|z|w|ci.*|.*[ _]ci|min|max|median|mdn|p[ _-]?value"
+    r"|p_.*|.*_p(_.*)?|.*_ci_.*"  # as in the tables that study analyse writes
 )
 
 

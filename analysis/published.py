@@ -125,6 +125,7 @@ class Verification:
 
 
 SIZES_SAID = 12
+FLOAT_DECIMALS = 15  # what a computer writes beyond them is its rounding
 
 
 def verify(table: Path, n: int, *, items: int = 1) -> Verification:
@@ -164,7 +165,7 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
 
 def counts_behind(printed: Decimal, n: int) -> tuple[int, ...]:
     """Every whole k for which k/n rounds to what is printed, a half rounding either way."""
-    half = Fraction(1, 2) / 10 ** _decimals(printed)
+    half = Fraction(1, 2) / 10 ** min(_decimals(printed), FLOAT_DECIMALS)
     value = Fraction(printed)
     around = floor(value * n)
     reach = floor(half * n) + 1

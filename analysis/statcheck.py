@@ -21,19 +21,34 @@ NUMBER = rf"[{MINUS}]?\d*\.?\d+"
 EITHER = rf"[{MINUS}]?\d*[.,]?\d+"  # with a point or, as in German, a comma
 POWER = rf"(?:[eE][{MINUS}]?\d+|\s*[×x·]\s*10\s*\^?\s*\{{?[{MINUS}]\d+\}}?)?"  # 1.2e-5, 1.2 × 10^-5
 EFFECT = (
-    rf"(?:d|dz|g|r|SE|b|B|β|η2|η²|ηp2|ηp²|ω2|ω²|V|W|M|SD)\s*=\s*{NUMBER}|\d\d\s*%\s*CI\s*[:=]?\s*\[[^\]]*\]"
+    rf"(?:d|dz|g|r|SE|b|B|β|η2|η²|ηp2|ηp²|ω2|ω²|V|W|M|SD|MSE)\s*=\s*{NUMBER}"
+    r"|\d\d\s*%\s*CI\s*[:=]?\s*\[[^\]]*\]"
 )
 REPORTED = re.compile(
     rf"(?<![\w.])(?P<symbol>t|F|r|z|Z|H|[χΧX]\s?\^?\s?[2²]|chi2|chi-squared?)"
-    rf"\s*(?:\(\s*(?:df\s*=\s*)?(?P<df>{NUMBER}(?:\s*,\s*{NUMBER})?)[^)]*\))?"
+    rf"\s*(?:(?:\(|(?<![rzZH])\{{(?=\d\d|\d+\s*,))\s*(?:df\s*=\s*)?(?P<df>{NUMBER}(?:\s*,\s*{NUMBER})?)[^)}}]*[)}}])?"
     rf"\s*=\s*(?P<value>{EITHER})(?![\d.])"
     rf"(?:\s*[,;]\s*(?:{EFFECT}))*\s*[,;:]?\s*\(?\s*"
-    rf"p\s*(?P<sign>[<>=≤≥])\s*(?P<p>{EITHER}{POWER})"
+    rf"[pP](?:[\s-]value)?\s*(?P<sign>[<>=≤≥])\s*(?P<p>{EITHER}{POWER})"
 )
 ONE_SIDED = re.compile(r"one[-\s](?:sided|tailed)|directional|einseitig", re.IGNORECASE)
 TWO_SIDED = re.compile(r"two[-\s](?:sided|tailed)|zweiseitig", re.IGNORECASE)
 OTHER_P = re.compile(rf"[\w-]*(?:adjusted|corrected)\s+p\s*[<>=≤≥]\s*{NUMBER}", re.IGNORECASE)
 CORRECTED = re.compile(r"adjust|correct|bonferroni|holm|hochberg|greenhouse|huynh", re.IGNORECASE)
+LATEX = {  # and HTML
+    r"\\chi\s*\^?\{?2\}?": "χ2",
+    r"\\(?:times|cdot)(?![a-z])": "×",
+    r"\\leq?(?:slant)?(?![a-z])": "≤",
+    r"\\geq?(?:slant)?(?![a-z])": "≥",
+    r"&lt;": "<",
+    r"&gt;": ">",
+    r"\\[,;:! ]|~": " ",
+    r"(?<=[<>=≤≥])\s*10\s*(?=\^)": "1×10",
+}
+TABLE = re.compile(
+    r"\\begin\{(?:tabular|longtable)|^[ \t]*\|?[ \t:|-]*-{3}[ \t:-]*\|[ \t:|-]*$|<table",
+    re.MULTILINE | re.IGNORECASE,
+)
 MARKUP = re.compile(
     r"\\(?:textit|textbf|emph|mathit|mathrm|text)\{([^{}\n]*)\}|[*$]|(?<!\w)_(?=\w)|(?<=\w)_(?!\w)"
 )
@@ -61,6 +76,7 @@ class Reading:
     """Every reported test of a text, recomputed."""
 
     checked: tuple[Checked, ...]
+    tables: int = 0  # which are not read
 
     @property
     def faults(self) -> tuple[Checked, ...]:
@@ -68,11 +84,16 @@ class Reading:
         return tuple(one for one in self.checked if not one.consistent)
 
     def __str__(self) -> str:
-        if not self.checked:
-            return "No test in the form t(33) = 4.82, p < .001 is reported here."
         n, bad = len(self.checked), len(self.faults)
         found = f"{n} reported test{'s' * (n > 1)} recomputed, {bad} inconsistent."
-        return "\n".join([found, *(f"  {one}" for one in self.faults)])
+        if not self.checked:
+            found = "No test in the form t(33) = 4.82, p < .001 is reported here."
+        return "\n".join([found, *(f"  {one}" for one in self.faults), *self._unread()])
+
+    def _unread(self) -> Iterator[str]:
+        if self.tables:
+            what = "1 table was" if self.tables == 1 else f"{self.tables} tables were"
+            yield f"{what} not read: save each as CSV, to check it with study verify TABLE.csv -n 34."
 
 
 def check_file(path: Path) -> Reading:
@@ -83,7 +104,7 @@ def check_file(path: Path) -> Reading:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: is no UTF-8 text (a PDF or Word file?); save it as plain text") from error
-    return Reading(tuple(check_text(text)))
+    return Reading(tuple(check_text(text)), tables=len(TABLE.findall(text)))
 
 
 def check_text(text: str, alpha: float = 0.05) -> list[Checked]:
@@ -92,7 +113,9 @@ def check_text(text: str, alpha: float = 0.05) -> list[Checked]:
     A test called one-sided (or two-sided) right beside it is taken at its word; where the text speaks of
     one-sided tests elsewhere, either will do. A p that is called corrected may be larger than recomputed.
     """
-    plain = re.sub(r"\\chi\s*\^?\{?2\}?", "χ2", text)
+    plain = text
+    for written, meant in LATEX.items():
+        plain = re.sub(written, meant, plain)
     plain = MARKUP.sub(lambda match: match.group(1) or "", plain)
     return list(_each(plain, alpha))
 

@@ -181,3 +181,9 @@ def test_a_verification_reads_as_sentences(table_ii: Path) -> None:
     assert "line 3, arc/low: shares add up to 2.00" in said
     assert "follow: 19 against 10 of 34; t(66) = 2.26, p = .014, one-sided" in said
     assert check_text(said) and all(one.consistent for one in check_text(said))
+
+
+def test_the_table_that_the_analysis_writes_can_be_checked(tmp_path: Path) -> None:
+    head = "principle,level,n,higher,lower,share_higher,share_ci_low,d_ci_low,mcnemar_p,fisher_p,binomial_p\n"
+    found = check(tmp_path, f"{head}arc,high,34,25,9,{25 / 34},0.56,1.2,0.01,0.003,0.2\n", 34)
+    assert (found.kind, found.cells, found.faults) == ("shares", 1, ())

@@ -18,6 +18,13 @@ from tests.analysis.statistics.test_t_tests import choices, ratings
 GOOD = [  # R: 2 * pt(-|t|, df), pf(F, df1, df2, lower.tail = FALSE), pchisq(…), 2 * pnorm(-|z|)
     "t(33) = 4.82, p < .001",
     "t(33)=4.82,p<.001",
+    "$t_{33} = 4.82$, $p < 10^{-3}$",
+    r"$t(33)~=~4.82,\, p = 3.14 \times 10^{-5}$",
+    r"$t(33) = 4.82, p \leq .001$",
+    "t(33) = 4.82, p &lt; .001",
+    "t(66) = 2.26, P-value = .027",
+    "F(1, 30) = 4.20, MSE = 3.2, p = .049",
+    "$F_{1,30} = 4.20$, $p = .049$",
     "*t*(33) = 4.82, *p* < .001",
     "_t_(66) = 2.26, _p_ = .027",
     "$t(66) = 2.26$, $p = .027$",
@@ -62,6 +69,8 @@ BAD = [  # sentence, whether the decision changes
     ("t(66) = 2.26, p = .027, one-sided", False),
     ("t(66) = 1.20, p = .01", True),
     ("t(66) = 1.20, p < .05", True),
+    ("$t_{66} = 1.20$, $P < .05$", True),
+    (r"$t(66) = 1.20, p = 1.0 \times 10^{-3}$", True),
     ("t(10) = 9.99, p = .000", False),
     ("t(33) = 2.40, p = .322, Holm-adjusted p = .132", True),
     ("t(33) = 2.40, p = .002 after Holm's correction", False),
@@ -74,6 +83,8 @@ BAD = [  # sentence, whether the decision changes
     ("t(20) = 3.10, p > .05", True),
 ]
 NO_TESTS = [
+    "$r_{12} = .35$, p = .9",  # of variables 1 and 2
+    "$t_{1} = 2.26$, p = .9",  # the first
     "The cost = 3.2, p = .5 of the shirt(33) = 4, p = .2.",
     "at 50 Hz = 1.96, p = .9",
     "r = .31, p = .9",
@@ -131,6 +142,21 @@ def test_a_paper_is_read_line_by_line(tmp_path: Path) -> None:
     assert [(one.line, one.text) for one in found.faults] == [(2, "t(66) = 1.20, p = .01")]
     assert str(found).splitlines()[0] == "2 reported tests recomputed, 1 inconsistent."
     assert "the decision changes" in str(found)
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        "\\begin{tabular}{lr}\na & .79 \\\\\n\\end{tabular}",
+        "| a | b |\n|---|--:|\n| .79 | .21 |",
+        "a | b\n--- | ---\n.79 | .21",
+    ],
+)
+def test_a_table_within_a_text_is_said_to_be_unread(table: str, tmp_path: Path) -> None:
+    paper = tmp_path / "paper.md"
+    paper.write_text(f"# Results\n\n---\n\nIt held, t(66) = 2.26, p = .027.\n\n{table}\n", encoding="utf-8")
+    unread = "1 table was not read: save each as CSV, to check it with study verify TABLE.csv -n 34."
+    assert str(check_file(paper)) == f"1 reported test recomputed, 0 inconsistent.\n{unread}"
 
 
 def test_a_text_that_cannot_be_read_is_refused_in_plain_words(tmp_path: Path) -> None:
