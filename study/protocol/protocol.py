@@ -62,10 +62,20 @@ class Video(Written):
 
     @field_validator("size")
     @classmethod
-    def _even(cls, size: str) -> str:
-        if any(int(side) % 2 for side in size.split("x")):
+    def _can_be_filmed(cls, size: str) -> str:
+        width, height = map(int, size.split("x"))
+        if width % 2 or height % 2:
             raise wrong("must have even sides, as the video format demands")
+        if not (16 <= width <= 7680 and 16 <= height <= 4320):
+            raise wrong("must be at least 16x16 and at most 7680x4320")
         return size
+
+    @field_validator("lead_in", "hold")
+    @classmethod
+    def _is_waited_for(cls, seconds: float) -> float:
+        if seconds > 60:
+            raise wrong("must be at most 60 s")
+        return seconds
 
     @property
     def pixels(self) -> tuple[int, int]:
