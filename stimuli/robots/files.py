@@ -17,16 +17,17 @@ from stimuli.errors import InputError
 from stimuli.outline import placed, places, vertices
 from stimuli.robots.descriptions import PREFIX, find_description
 from stimuli.robots.facts import LOOK, sources_sha256
+from stimuli.robots.mimics import Mimic, coupled, mimicked
 from stimuli.robots.model import Joint, JointKind, Robot, Vector
 from stimuli.robots.robot_file import Place, RobotFile, check_names, read_robot_file
-from stimuli.robots.urdf import Mimic, mimicked, read_urdf
+from stimuli.robots.urdf import read_urdf
 
 KINDS: Mapping[int, JointKind] = {
     int(mujoco.mjtJoint.mjJNT_HINGE): "revolute",
     int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
 }
 HALF_TURNS = (-np.pi, np.pi)  # of a hinge that turns without end
-CODE = tuple(f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "meshes"))
+CODE = tuple(f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "mimics", "meshes"))
 
 
 @dataclass(frozen=True)
@@ -60,9 +61,9 @@ def robot_from(facts: RobotFile, place: Place, folder: Path) -> Robot:
         source, search, origin = folder / facts.model, (), facts.model
     body = Body(source, (*(folder / other for other in facts.search), *search))
     urdf = read_urdf(source, body.search) if source.suffix == ".urdf" else None
-    mimics = dict(urdf.mimics) if urdf else {}
     spec = build(body)
     model = spec.compile()
+    mimics = urdf.mimics if urdf else coupled(model, source)
     every = _joints(model, source, {**(urdf.velocities if urdf else {}), **facts.velocities}, mimics)
     if not every or not model.ngeom:
         raise InputError(f"{source}: it has nothing {'to see' if every else 'that moves'}")

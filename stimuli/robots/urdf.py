@@ -12,18 +12,10 @@ from xml.parsers.expat import ExpatError
 from stimuli.errors import InputError
 from stimuli.lines import read_xml
 from stimuli.robots.meshes import read_pieces
+from stimuli.robots.mimics import Mimic, by_their_leaders
 from stimuli.robots.urdf_checks import Places, check_urdf
 
 PACKAGE = "package://"
-
-
-@dataclass(frozen=True)
-class Mimic:
-    """A joint at `multiplier` times another's position, plus `offset`."""
-
-    joint: str
-    multiplier: float
-    offset: float
 
 
 @dataclass(frozen=True)
@@ -85,14 +77,6 @@ def find_mesh(filename: str, beside: Path, folders: Sequence[Path], place: str) 
     )
 
 
-def mimicked(positions: Mapping[str, float], mimics: Mapping[str, Mimic]) -> dict[str, float]:
-    """Positions of all joints, those that follow others too."""
-    following = {
-        name: mimic.multiplier * positions[mimic.joint] + mimic.offset for name, mimic in mimics.items()
-    }
-    return {**positions, **following}
-
-
 def _keep_only_what_is_seen(root: ET.Element) -> None:
     for link in root.iterfind("link"):
         for collision in link.findall("collision"):
@@ -128,24 +112,10 @@ def _velocities(root: ET.Element) -> dict[str, float]:
 
 def _mimics(root: ET.Element, places: Places) -> dict[str, Mimic]:
     """Each joint that follows another, by the one that leads them all."""
-    entries = {joint.get("name", ""): joint.find("mimic") for joint in root.iterfind("joint")}
+    found = {joint.get("name", ""): joint.find("mimic") for joint in root.iterfind("joint")}
+    mimics = {name: mimic for name, mimic in found.items() if mimic is not None}
     written = {
-        name: Mimic(entry.get("joint", ""), float(entry.get("multiplier", 1)), float(entry.get("offset", 0)))
-        for name, entry in entries.items()
-        if entry is not None
+        name: Mimic(mimic.get("joint", ""), float(mimic.get("multiplier", 1)), float(mimic.get("offset", 0)))
+        for name, mimic in mimics.items()
     }
-
-    def led(name: str) -> Mimic:
-        mimic, seen = written[name], {name}
-        while mimic.joint in written:
-            if mimic.joint in seen:
-                entry = entries[name]
-                assert entry is not None
-                raise InputError(f"{places.of(entry)}: joint {name!r}: mimic: it follows itself")
-            seen.add(mimic.joint)
-            leader = written[mimic.joint]
-            multiplier = mimic.multiplier * leader.multiplier
-            mimic = Mimic(leader.joint, multiplier, mimic.multiplier * leader.offset + mimic.offset)
-        return mimic
-
-    return {name: led(name) for name in written}
+    return by_their_leaders(written, lambda name: places.of(mimics[name]))

@@ -90,6 +90,24 @@ def test_a_changed_mesh_or_include_outside_the_folder_changes_the_hash(tmp_path:
     assert load_robot("robot.yaml", copied / "robot").sha256 == hashes[-1]
 
 
+def test_joints_that_an_mjcf_couples_follow_their_leader(tmp_path: Path) -> None:
+    finger = '<body name="{0}"><joint name="{0}" range="-60 60" ref="{1}"/><geom size=".1"/></body>'
+    equality = '<equality><joint joint1="right" joint2="left" polycoef="{}"/></equality>'
+
+    def gripper(polycoef: str) -> str:
+        fingers = finger.format("left", 0) + finger.format("right", 30)
+        return f"<mujoco><worldbody>{fingers}</worldbody>{equality.format(polycoef)}</mujoco>"
+
+    (tmp_path / "robot.yaml").write_text("robot: gripper\ntitle: A gripper\nmodel: gripper.xml\n")
+    (tmp_path / "gripper.xml").write_text(gripper("0.1 -2 0 0 0"))
+    robot = load_robot("robot.yaml", tmp_path)
+    assert robot.joint_names == ("left",)
+    assert robot.qpos({"left": 0.2})["right"] == pytest.approx(np.radians(30) + 0.1 - 2 * 0.2)
+    (tmp_path / "gripper.xml").write_text(gripper("0 1 2 0 0"))
+    with pytest.raises(InputError, match="joint 'right' follows 'left' along a curve"):
+        load_robot("robot.yaml", tmp_path)
+
+
 def test_what_cannot_be_used_is_said_with_its_place(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"nowhere\.yaml: cannot be read"):
         load_robot("nowhere.yaml", tmp_path)
