@@ -240,10 +240,11 @@ class Store(Archive):
             db = transaction.db
             count = select(func.count()).where(responses.c.participant == participant)
             deleted = db.execute(count).scalar_one()
-            db.execute(  # and all that refers to it
+            gone = db.execute(  # and all that refers to it
                 participants.delete().where(participants.c.name == participant)
             )
-            db.execute(insert(withdrawals), {"participant": participant, "at": now, "responses": deleted})
+            if gone.rowcount:  # else they were deleted before: a double click
+                db.execute(insert(withdrawals), {"participant": participant, "at": now, "responses": deleted})
 
         self._writer.now(job, then=lambda _: self.forget())
         self._database.purge()

@@ -64,8 +64,10 @@ def _recruited(request: Request, external_id: str) -> Response:
 def start(request: Request) -> Response:
     """Somebody starts without a link."""
     site = site_of(request)
-    if site.door == "link" or site.store.phase != "open":
+    if site.door == "link":
         raise HTTPException(403)
+    if site.store.phase != "open":  # paused or closed while they looked at the button
+        return to(request, "entry")
     if participant_of(request):  # a double click
         return to(request, "study")
     require(limits_of(request).entries, address_of(request))
@@ -76,10 +78,13 @@ def start(request: Request) -> Response:
 
 @router.get("/p/{token}", name="link")
 def link(request: Request, token: str) -> Response:
-    """A personal link. The token leaves the address at once and stays in a cookie no script can read."""
-    require_guesses_left(request)
+    """A personal link. The token leaves the address at once and stays in a cookie no script can read.
+
+    A right one opens, however often others guessed at the same address: of 2⁴⁹ codes none is found that way.
+    """
     invited = site_of(request).store.participant(token_sha256(token))
     if invited is None:
+        require_guesses_left(request)
         count_wrong_guess(request)
         raise HTTPException(404)
     _require_in_time(request, invited)
@@ -89,10 +94,10 @@ def link(request: Request, token: str) -> Response:
 @router.post("/code", name="code")
 def code(request: Request, code: Annotated[str, Form(max_length=40)]) -> Response:
     """A personal code, for where one types and does not click."""
-    require_guesses_left(request)
     token, language = token_of_code(code), language_of(request)
     invited = site_of(request).store.participant(token_sha256(token))
     if invited is None:
+        require_guesses_left(request)
         count_wrong_guess(request)
         say = load_language(language).text
         return _door(request, language, fault=say("This code is not known."))
@@ -122,7 +127,7 @@ def _require_in_time(request: Request, invited: Participant) -> None:
 @router.get("/next", name="next")
 def ask_for_key(request: Request) -> Response:
     """In a laboratory's kiosk only the experimenter opens the door to the next participant."""
-    return render(request, "next.html", language=language_of(request), fault=None)
+    return _next(request, language_of(request))
 
 
 @router.post("/next")
@@ -135,5 +140,12 @@ def next_participant(request: Request, key: Annotated[str, Form(max_length=40)] 
             count_wrong_guess(request)
             say = load_language(language).text
             fault = say("This is not the key.")
-            return render(request, "next.html", language=language, fault=fault, status=403)
+            return _next(request, language, fault=fault)
     return forget(to(request, "entry"))
+
+
+def _next(request: Request, language: str, *, fault: str | None = None) -> Response:
+    """The page that asks for the key; whoever came there by mistake finds their way back."""
+    known = participant_of(request) is not None
+    status = 403 if fault else 200
+    return render(request, "next.html", language=language, status=status, known=known, fault=fault)

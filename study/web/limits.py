@@ -89,10 +89,15 @@ def refuse(limit: Limit) -> None:
 def require_guesses_left(request: Request) -> None:
     """Refuse whoever has guessed wrongly too often."""
     limit = limits_of(request).guesses
-    if limit.left(address_of(request)) < 1:
+    if limit.left(_guesser(request)) < 1:
         refuse(limit)
 
 
 def count_wrong_guess(request: Request) -> None:
     """Note a wrong guess."""
-    limits_of(request).guesses.take(address_of(request))
+    limits_of(request).guesses.take(_guesser(request))
+
+
+def _guesser(request: Request) -> str:
+    """Who guesses what: guessing codes keeps nobody at the same address from their password or key."""
+    return f"{address_of(request)} {request.scope['route'].name}"

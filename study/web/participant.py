@@ -24,7 +24,7 @@ from study.web.language import load_language
 from study.web.limits import count_wrong_guess, limits_of, require, require_guesses_left
 from study.web.pages import render, url
 from study.web.site import Clip, Site, site_of
-from study.web.visitor import forget, language_of, participant_of, speaking, to, visit_of
+from study.web.visitor import forget, has_token, language_of, participant_of, speaking, to, visit_of
 
 router = APIRouter()
 
@@ -230,6 +230,8 @@ def withdraw(
     say = load_language(language).text
     if sure != "yes":
         raise HTTPException(400)
+    if participant is None and not code and has_token(request):
+        return _withdrawn(request, language)  # sent twice: the first has deleted everything
     if participant is None:
         require_guesses_left(request)
     name = participant.name if participant else site.store.participant_with_code(code.strip().upper())
@@ -238,6 +240,11 @@ def withdraw(
         fault = say("This code is not known. Please check it, or write to us.")
         return render(request, "withdraw.html", language=language, known=False, fault=fault, status=404)
     site.store.withdraw(name, now=site.clock())
+    return _withdrawn(request, language)
+
+
+def _withdrawn(request: Request, language: str) -> Response:
+    say = load_language(language).text
     answer = render(
         request,
         "message.html",

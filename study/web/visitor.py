@@ -33,6 +33,11 @@ def participant_of(request: Request) -> Participant | None:
     return site_of(request).store.participant(token_sha256(token)) if token else None
 
 
+def has_token(request: Request) -> bool:
+    """Whether somebody was let in by this browser, be it that they have withdrawn since."""
+    return bool(request.cookies.get(TOKEN))
+
+
 async def visit_of(request: Request) -> Visit | None:
     """Whose cookie came with the request, and how far they have come."""
     token, store = request.cookies.get(TOKEN), site_of(request).store

@@ -123,8 +123,15 @@ def test_guessing_is_slowed_down_and_nobody_is_locked_out_for_good(visitor: http
     answers = [visitor.post("/code", data={"code": f"guess{n}"}) for n in range(12)]
     assert [answer.status_code for answer in answers] == [404] * 10 + [429] * 2
     assert int(answers[-1].headers["retry-after"]) <= 10
-    assert visitor.post("/experimenter/login", data={"password": "wrong"}).status_code == 429
+    assert visitor.post("/experimenter/login", data={"password": "wrong"}).status_code == 401
     assert visitor.post("/start").status_code == 200, "who does not guess is not kept out"
+    code = new_personal_code()
+    invited = new_participant(token_of_code(code), kind="participant", created_at=site.clock())
+    site.store.add_participant(invited)
+    assert visitor.post("/code", data={"code": code}).status_code == 200, "nor who need not guess"
+    guesses = [visitor.get(f"/p/guess{n}").status_code for n in range(12)]
+    assert guesses == [404] * 10 + [429] * 2
+    assert visitor.get(f"/p/{token_of_code(code)}").status_code == 200
 
 
 def test_an_allowance_fills_up_again() -> None:
@@ -171,10 +178,11 @@ def test_paused_and_closed_studies_lose_no_answer_and_begin_no_session(
     assert visitor.post("/study/answers", json=sent).status_code == 200, "an answer under way is stored"
     assert "The study is paused" in visitor.get("/study").text
     with httpx.Client(base_url=visitor.base_url, follow_redirects=True) as late:
-        assert late.post("/start").status_code == 403
+        assert "The study is paused. Please come back" in late.post("/start").text
+    assert len(site.store.progress()) == 1
     site.store.enter_phase("closed", now=site.clock())
     assert "Before we start" in visitor.get("/study").text, "who has begun may finish"
-    assert "not open" in httpx.get(visitor.base_url).text
+    assert "nobody can begin any more" in httpx.get(visitor.base_url).text
     site.store.enter_phase("open", now=site.clock())
     assert "Start" in httpx.get(visitor.base_url).text
 

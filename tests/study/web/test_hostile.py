@@ -125,6 +125,16 @@ def test_a_cookie_of_somebody_who_withdrew_opens_nothing(visitor: httpx.Client, 
     assert (stored(site), len(site.store.withdrawals())) == ([], 1)
 
 
+def test_a_double_click_withdraws_once_and_both_are_told_so(visitor: httpx.Client, site: Site) -> None:
+    with httpx.Client(base_url=visitor.base_url, cookies=visitor.cookies) as second:
+        for click in (visitor, second):
+            told = click.post("/withdraw", data={"sure": "yes"})
+            assert (told.status_code, "Your answers are deleted" in told.text) == (200, True)
+    [note] = site.store.withdrawals()
+    site.store.withdraw(note.participant, now=site.clock())  # both at the same moment
+    assert len(site.store.withdrawals()) == 1
+
+
 def test_withdrawing_while_answers_are_under_way_leaves_none(site: Site) -> None:
     with running(create_app(site)) as address, ThreadPoolExecutor(4) as tabs:
         for _ in range(5):

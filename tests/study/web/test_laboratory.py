@@ -88,6 +88,8 @@ def test_the_next_participant_finds_nothing_of_the_one_before(visit, page: Page,
     page.get_by_label("How old are you?").fill("34")
     visit.proceed()
     page.get_by_role("link", name="For the experimenter").click()
+    page.get_by_role("link", name="Back to the study").click()  # a kiosk has no other way back
+    page.get_by_role("link", name="For the experimenter").click()
     page.get_by_label("Key").fill(re.findall(r"\d{6}", desk.locator(".code").inner_text())[0])
     page.get_by_role("button", name="Next participant").click()
     expect(page.get_by_role("heading", name="Welcome")).to_be_visible()
@@ -121,7 +123,7 @@ def test_the_report_is_sealed_until_all_have_come_and_the_study_is_closed_by_han
         page.get_by_role("button", name="Close: nobody else can begin").click()
         expect(page.get_by_role("heading", name="The study is closed")).to_be_visible()
         page.goto(address)
-        expect(page.get_by_text("The study is not open at the moment")).to_be_visible()
+        expect(page.get_by_text("The study is closed: nobody can begin")).to_be_visible()
 
 
 def test_a_sheet_of_invitations_fits_its_paper(desk: Page, tmp_path) -> None:

@@ -37,7 +37,7 @@ def test_the_study_closes_when_the_last_planned_has_completed(site: Site) -> Non
         refused = late.post("/consent", data={"agreed": "yes", "language": "en"})
         assert refused.status_code == 200
         assert "Nobody can begin any more. Thank you for your interest." in refused.text
-        assert "not open" in httpx.get(address).text
+        assert "nobody can begin any more" in httpx.get(address).text
         assert sum(person.session is not None for person in site.store.progress()) == 2
 
         site.store.enter_phase("open", now=site.clock())
