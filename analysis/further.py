@@ -29,7 +29,8 @@ from analysis.target import Recognised
 from study.protocol import Protocol
 
 SEED = 0  # of the bootstrap
-CLOSE = 0.5  # points of the scale within which a mean is practically at chance
+CLOSE = 0.5  # points of the scale within which a mean is practically at chance, or of a finer scale
+CLOSE_SHARE = 0.05  # of its length
 MOST = 2000  # participants for whom mixed models are fitted; beyond, they take minutes and tell nothing new
 
 
@@ -42,7 +43,7 @@ class OfTarget:
     permutation: LabelPermutation
     ordinal: CumulativeLinkMixed | None  # is the target rated higher than the other items?
     bayes: BayesFactor
-    equivalence: Equivalence | None  # is the mean within half a point of chance?
+    equivalence: Equivalence | None  # is the mean practically at chance?
     hits: UnbiasedHitRate
 
 
@@ -125,7 +126,8 @@ def _of_targets(outcome: Targets) -> dict[str, OfTarget]:
 def _of_target(
     outcome: Targets, one: Recognised, ratings: FloatArray, item: int, hits: UnbiasedHitRate
 ) -> OfTarget:
-    on_target, null = ratings[:, item], one.against.null
+    on_target, null, (low, high) = ratings[:, item], one.against.null, outcome.answers.scale or (0, 0)
+    close = max(CLOSE, CLOSE_SHARE * (high - low))
     scores_are_ratings = outcome.chance in {"midpoint", "grand mean", "fixed"}
     return OfTarget(
         mean_ci95=bootstrap_mean(on_target, np.random.default_rng(SEED)),
@@ -133,7 +135,7 @@ def _of_target(
         permutation=label_permutation(ratings, item),
         ordinal=_ordinal(ratings, np.arange(ratings.shape[1]) == item),
         bayes=jzs_bayes_factor(one.against.t_test),
-        equivalence=equivalence(on_target, (null - CLOSE, null + CLOSE)) if scores_are_ratings else None,
+        equivalence=equivalence(on_target, (null - close, null + close)) if scores_are_ratings else None,
         hits=hits,
     )
 

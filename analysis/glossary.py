@@ -41,8 +41,8 @@ GLOSSARY = {
     "each participant's ratings of a clip are shuffled among the items.",
     "BF": "JZS Bayes factor of the one-sample or paired t-test, as one- or two-sided as the test, "
     "Cauchy prior of width 0.707: how much likelier the data are under an effect. R: BayesFactor::ttestBF",
-    "TOST": "Two one-sided tests that the mean lies within half a point of chance: a small p says it is "
-    "practically at chance. R: t.test against each bound",
+    "TOST": "Two one-sided tests that the mean lies within half a point of chance, on a slider within "
+    "5% of its length: a small p says it is practically at chance. R: t.test against each bound",
     "Krippendorff": "Agreement of participants' ratings beyond chance: 0 none, 1 complete.",
     "ICC": "Intraclass correlation, participants as raters drawn from many: of one rater (ICC2) and of the "
     "mean of all (ICC2k). R: psych::ICC(lmer = FALSE)",

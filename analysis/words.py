@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from analysis import apa
@@ -11,7 +11,7 @@ from analysis.further import Further
 from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Outcome, Preferences, Targets
 from analysis.preference import Preferred
-from analysis.statistics.t_test import TTest
+from analysis.statistics.t_test import Alternative, TTest
 from analysis.target import Judging, Recognised, Verdict
 
 if TYPE_CHECKING:
@@ -85,12 +85,29 @@ def left_out(further: Further, findings: Findings) -> str:
     return "Leaving participants out changed no decision."
 
 
+FOUND: Mapping[type[Outcome], Mapping[Alternative, str]] = {
+    Targets: {
+        "greater": "clips rated above chance",
+        "less": "clips rated below chance",
+        "two-sided": "clips rated above or below chance",
+    },
+    Preferences: {
+        "greater": "preferred as expected",
+        "less": "preferred as expected",
+        "two-sided": "preferred one way or the other",
+    },
+    Levels: {
+        "greater": "told apart as expected",
+        "less": "told apart as expected",
+        "two-sided": "told apart",
+    },
+}
+
+
 def summary(name: str, outcome: Outcome) -> str:
     """What was found, in one line."""
     found = [key for key, one in outcome.results.items() if one.verdict.significant]
-    what = {Targets: "clips rated above chance", Preferences: "preferred as expected"}.get(
-        type(outcome), "told apart as expected"
-    )
+    what = FOUND[type(outcome)][outcome.judging.alternative]
     n, of = len(found), len(outcome.results)
     missed = [key for key in outcome.results if key not in found]
     but = f"; not {', '.join(missed)}" if missed and found else ""

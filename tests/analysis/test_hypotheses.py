@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from analysis.answers import Answers
 from analysis.apa import number
-from analysis.dataset import read_responses
-from analysis.plan import Levels, carry_out
+from analysis.chance import DEFINITIONS
+from analysis.dataset import Responses, read_responses
+from analysis.exclusions import Flow
+from analysis.further import look_further
+from analysis.plan import Findings, Levels, Targets, carry_out
 from analysis.report import analyse
-from analysis.words import sentences
+from analysis.statistics.t_test import Alternative
+from analysis.target import Judging, recognition
+from analysis.words import sentences, summary
 from study.protocol import Protocol, load_protocol
 from study.protocol.errors import ProtocolError
 from tests.analysis.conftest import PAPER, Write, choices, ratings
@@ -64,3 +72,34 @@ def test_a_sentence_reports_the_test_that_was_declared(tmp_path: Path, write: Wr
 def test_a_hypothesis_bears_a_name_that_a_file_can_bear(tmp_path: Path) -> None:
     with pytest.raises(ProtocolError, match="a/b"):
         with_hypotheses(tmp_path, MORE.replace("H3", "a/b"))
+
+
+@pytest.mark.parametrize(
+    ("alternative", "clips", "levels"),
+    [
+        ("greater", "clips rated above chance", "told apart as expected"),
+        ("less", "clips rated below chance", "told apart as expected"),
+        ("two-sided", "clips rated above or below chance", "told apart ("),
+    ],
+)
+def test_the_summary_says_no_more_than_what_was_tested(
+    alternative: Alternative, clips: str, levels: str, paper: Protocol, write: Write
+) -> None:
+    outcomes = carry_out(read_responses(write([*ratings(n=4), *choices(n=4)]), paper), paper).outcomes
+    for name, said in {"H1": clips, "H2.1": levels}.items():
+        judging = replace(outcomes[name].judging, alternative=alternative)
+        assert said in summary(name, replace(outcomes[name], judging=judging))
+
+
+def test_a_mean_on_a_slider_is_practically_at_chance_within_five_percent_of_it(paper: Protocol) -> None:
+    people = tuple(map(str, range(40)))
+    codes = np.array([[[46 + place % 9, 50]] for place in range(40)], dtype=np.int8)
+    answers = Answers("p", people, ("calm",), ("calm", "other"), tuple(map(str, range(101))), codes)
+    judging = Judging("one-sample t", "greater", "none", 0.05)
+    midpoint = DEFINITIONS["midpoint"]
+    results = recognition(answers, {"calm": "calm"}, midpoint, judging)
+    outcome = Targets("H1", "p", "p", answers, judging, "midpoint", midpoint, results, {})
+    responses = Responses(Path("r.csv"), "", people, (answers,))
+    findings = Findings(responses, Flow(40, (), 40, ()), {"H1": outcome}, 0.05)
+    close = look_further(findings, responses, paper).targets["H1"]["calm"].equivalence
+    assert close is not None and close.bounds == (45, 55)
