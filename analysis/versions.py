@@ -11,7 +11,7 @@ import numpy as np
 
 from analysis.columns import read_columns
 from analysis.fields import ResponsesError, read_header
-from study.protocol.amendments import SHORT
+from study.protocol.amendments import SHORT, as_replaced
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -36,7 +36,7 @@ def of_one_study(path: Path, protocol: Protocol) -> Iterator[Mapping[str, str]]:
         raise ResponsesError(
             f"{path}: was gathered with {_named(strange)}, but {protocol.path} is now "
             f"{protocol.sha256[:SHORT]}. {_apart(strange[0])} To analyse all together, declare the change "
-            f"under `amendments` with `replaces: {strange[0][:SHORT]}`"
+            f"under `amendments` with `replaces: {as_replaced(strange[0])}`"
         )
     try:
         yield _earlier(path, hashes)

@@ -18,15 +18,16 @@ from stimuli.trajectory import Trajectory
 from study.balance import balance
 from study.orders import cycle, draw_plan
 from study.power import power
-from study.protocol import Protocol
+from study.protocol import Protocol, Stimulus
 from study.questions.scale import Scale
 from study.specs import ABSENT, specs
-from study.untranslated import untranslated
+from study.untranslated import unseen_languages, untranslated
 from study.web.language import interface_languages
 from study.words import count, in_brief, listed, tested
 
 Verdict = Literal["good", "mind", "wrong"]
 WIDTH = 110  # of the screen
+DRAWN = 2000  # orders at most that are drawn and counted
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ def _wrapped(message: str, width: int) -> list[str]:
 
 def check(protocol: Protocol) -> Report:
     """Look at everything that can be known before data are gathered."""
-    looked_at = (_structure, _unseen, _motions, _texts, _orders, _stop, _hypotheses)
+    looked_at = (_structure, _unseen, _alike, _motions, _texts, _orders, _stop, _hypotheses)
     findings = tuple(finding for look in looked_at for finding in look(protocol))
     return Report(protocol.study, protocol.sha256, findings)
 
@@ -114,6 +115,21 @@ def _unseen(protocol: Protocol) -> Iterator[Finding]:
     for field, names in unseen.items():
         if names:
             yield Finding("mind", field, f"declared but shown in no part: {', '.join(sorted(names))}")
+
+
+def _alike(protocol: Protocol) -> Iterator[Finding]:
+    """Stimuli of a part that are one and the same motion."""
+    for part_id, part in protocol.written_parts.items():
+        known: list[Stimulus] = []
+        for stimulus in protocol.stimuli_of(part_id):
+            if part.reference and stimulus.level == part.reference:
+                continue
+            motion = (stimulus.gesture, stimulus.modulation)
+            same = next((one for one in known if (one.gesture, one.modulation) == motion), None)
+            if same:
+                yield Finding("mind", "stimuli", f"{same.id} and {stimulus.id} are the same motion")
+            else:
+                known.append(stimulus)
 
 
 def _alone(error: InputError, value: str) -> str:
@@ -190,6 +206,10 @@ def _texts(protocol: Protocol) -> Iterator[Finding]:
         yield Finding("wrong", "texts", "\n".join(map(str, problems)))
     else:
         yield Finding("good", "texts", f"complete in {listed(protocol.languages)}")
+    if unseen := unseen_languages(protocol):
+        yield Finding(
+            "mind", "texts", f"some are in {listed(unseen)} too, but not the title: nobody sees them"
+        )
     for language in protocol.languages:
         if language not in interface_languages():
             yield Finding(
@@ -205,8 +225,9 @@ def _texts(protocol: Protocol) -> Iterator[Finding]:
 def _orders(protocol: Protocol) -> Iterator[Finding]:
     """The planned number of participants fills the design evenly."""
     planned = protocol.participants.planned
+    drawn = min(planned, DRAWN)
     try:
-        plans = [draw_plan(protocol, slot) for slot in range(planned)]
+        plans = [draw_plan(protocol, slot) for slot in range(drawn)]
     except InputError as error:
         yield Finding("wrong", "orders", str(error))
         return
@@ -225,7 +246,8 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
         )
     for part in balance(protocol, plans):
         order = in_brief(protocol.parts[part.part].order)
-        yield Finding("good", part.part, f"{order}: {part}", within="orders")
+        among = f"of the first {drawn}, " if drawn < planned else ""
+        yield Finding("good", part.part, f"{order}: {among}{part}", within="orders")
 
 
 def _stop(protocol: Protocol) -> Iterator[Finding]:

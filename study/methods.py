@@ -110,7 +110,9 @@ def _participants(protocol: Protocol) -> Iterator[str]:
     for found in power(protocol):
         alike.setdefault(f"{found} {found.level}", []).append(found.hypothesis)
     yield from (f"For {listed(names)}, {found}." for found, names in alike.items())
-    yield "Data were gathered until as many had completed the study. [Number] took part"
+    by_hand = protocol.participants.stop == "by hand"
+    until = "[when] we closed the study" if by_hand else "as many had completed the study"
+    yield f"Data were gathered until {until}. [Number] took part"
     service = protocol.participants.recruitment.service
     means = f"through {SERVICES[service]}" if service else "by [means]"
     yield f"([number] female, [number] male, aged [range] years), recruited {means}."
@@ -160,6 +162,9 @@ def _analysis(protocol: Protocol) -> Iterator[str]:
         if not mirrored and (note := beside_the_test(protocol, hypothesis)):
             yield f"{note}."
     yield f"The level of significance was {protocol.analysis.alpha:g}."
+    for change in protocol.amendments:
+        reason = change.reason.rstrip(".")
+        yield f"The protocol was amended on {change.date}, after [number] participants: {reason}."
     yield f"The protocol's SHA-256 is {protocol.sha256[:16]}; orders follow from seed {protocol.seed}."
     yield "Stimuli, sessions and analysis were made with expressive-motion-study"
     yield f"{version('expressive-motion-study')}."

@@ -42,7 +42,12 @@ def _head(protocol: Protocol) -> Iterator[str]:
     yield f"- Software: expressive-motion-study {version('expressive-motion-study')}"
     for change in protocol.amendments:
         yield f"- Amended on {change.date} (SHA-256 `{change.replaces[:12]}` before): {change.reason}"
-    yield "- To be registered before the first participant takes part."
+    when = (
+        "beside what was registered before it began"
+        if protocol.amendments
+        else "before the first participant takes part"
+    )
+    yield f"- To be registered {when}."
 
 
 def _hypotheses(protocol: Protocol) -> Iterator[str]:

@@ -2,7 +2,8 @@
 
 dataset_description.json                 what the dataset is, and what each column holds (schema.org)
 data/study-NAME_task-…_data.csv          the table, named by keywords
-materials/protocol.yaml                  the protocol, with all that was asked and shown
+materials/protocol.yaml …                the protocol, with the files it names
+materials/versions/HASH/protocol.yaml …  the same as it was before amendments
 documentation/responses.codebook.json    what each item and answer means
 README.md  CHANGES.md
 """
@@ -11,25 +12,40 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterable
 from pathlib import Path
 from shutil import copyfile
 
 from study.export import COLUMNS
 from study.participants import Kind
 from study.protocol import Protocol
+from study.versions import FOLDER as VERSIONS
+from study.versions import copy_protocol
 
 KEY = "participant, part, stimulus and item"  # together name a row
 
 
-def write_dataset(protocol: Protocol, table: Path, out: Path, *, kind: Kind = "participant") -> Path:
-    """Write a dataset of an exported table, beside which is its codebook, into a folder; gives the folder."""
+def write_dataset(
+    protocol: Protocol,
+    table: Path,
+    out: Path,
+    *,
+    kind: Kind = "participant",
+    earlier: Iterable[Protocol] = (),
+) -> Path:
+    """Write a dataset of an exported table, beside which is its codebook, into a folder; gives the folder.
+
+    `earlier` are the versions of the protocol that participants began with before amendments.
+    """
     for name in ("data", "documentation", "materials"):
         (out / name).mkdir(parents=True, exist_ok=True)
     data = out / "data" / f"study-{_alphanumeric(protocol.study)}_task-{_task(kind)}_data.csv"
     copyfile(table, data)
     book = table.with_suffix(".codebook.json")
     copyfile(book, out / "documentation" / book.name)
-    copyfile(protocol.path, out / "materials" / protocol.path.name)
+    copy_protocol(protocol, out / "materials")
+    for before in earlier:
+        copy_protocol(before, out / "materials" / VERSIONS / before.sha256)
     description = json.dumps(_description(protocol, kind), indent=2, ensure_ascii=False)
     (out / "dataset_description.json").write_text(description + "\n", encoding="utf-8")
     (out / "README.md").write_text(_readme(protocol, data.name, kind), encoding="utf-8")
@@ -57,7 +73,9 @@ def _readme(protocol: Protocol, data: str, kind: Kind) -> str:
 
 {_what(kind)} One row of `data/{data}` is one answered item; {KEY} together name it. Columns are
 described in `dataset_description.json`, items and answers in `documentation/`. The protocol in `materials/`
-has all that was asked and shown; its SHA-256 is {protocol.sha256}.
+has all that was asked and shown; its SHA-256 is {protocol.sha256}. Rows with another
+`protocol_sha256` were gathered before an amendment (`CHANGES.md`), with the protocol in
+`materials/{VERSIONS}/HASH`.
 
 Participants bear random names. Nothing here says who they are.
 """

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from study.protocol import Problem, Protocol
-from study.text import Text
+from study.text import ANY, Text
 from study.words import listed
 from study.written import Location
 
@@ -28,6 +28,12 @@ def untranslated(protocol: Protocol) -> list[Problem]:
         message = f"{listed(names)} come in English and German; write your own for {listed(languages)}"
         problems.append(source.problem(("texts",), message, name=True))
     return problems
+
+
+def unseen_languages(protocol: Protocol) -> list[str]:
+    """The languages in which the protocol has texts that nobody sees, as the study is not in them."""
+    own = (text for place, text in _seen(protocol) if place[:2] in protocol.source.places)
+    return sorted({language for text in own for language in text.root} - {ANY, *protocol.languages})
 
 
 def _seen(protocol: Protocol) -> Iterator[tuple[Location, Text]]:

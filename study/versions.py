@@ -13,7 +13,7 @@ from pathlib import Path
 
 from stimuli.manifest import Manifest
 from study.protocol import Problem, Protocol, ProtocolError, load_protocol
-from study.protocol.amendments import SHORT
+from study.protocol.amendments import SHORT, as_replaced
 
 FOLDER = "versions"
 
@@ -40,7 +40,7 @@ def refuse_undeclared(protocol: Protocol, known_hashes: Collection[str]) -> None
             "",
             f"has changed since participants took part in {known[:SHORT]}. Take the change back, gather the "
             "new data elsewhere (--data), or declare it:\n"
-            f"amendments:\n  - {{date: <today>, reason: <why>, replaces: {known[:SHORT]}}}",
+            f"amendments:\n  - {{date: <today>, reason: <why>, replaces: {as_replaced(known)}}}",
         )
         for known in sorted(known_hashes)
         if not protocol.continues(known)
@@ -56,14 +56,19 @@ def keep_version(protocol: Protocol, manifest: Manifest, data: Path) -> None:
         return
     unfinished = folder.with_name(f"{folder.name}.part")
     shutil.rmtree(unfinished, ignore_errors=True)
-    unfinished.mkdir(parents=True)
-    for name in protocol.files:
-        if not Path(name).is_absolute() and (protocol.folder / name).is_file():
-            (unfinished / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(protocol.folder / name, unfinished / name)
-    shutil.copyfile(protocol.path, unfinished / "protocol.yaml")
+    copy_protocol(protocol, unfinished)
     manifest.save(unfinished)
     unfinished.rename(folder)
+
+
+def copy_protocol(protocol: Protocol, folder: Path) -> None:
+    """Copy a protocol and the files it names into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in protocol.files:
+        if not Path(name).is_absolute() and (protocol.folder / name).is_file():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(protocol.folder / name, folder / name)
+    shutil.copyfile(protocol.path, folder / "protocol.yaml")
 
 
 def earlier_versions(protocol: Protocol, data: Path) -> Iterator[Version]:

@@ -59,7 +59,9 @@ def ordered(order: Order) -> str:
 def in_brief(order: Order) -> str:
     """An order as the protocol has it."""
     written = order.model_dump(exclude_defaults=True)
-    return ", ".join(value if name == "stimuli" else f"{name} {value}" for name, value in written.items())
+    limits = (f"at most {n} of one {alike} in a row" for alike, n in written.pop("max_run", {}).items())
+    named = (value if name == "stimuli" else f"{name} {value}" for name, value in written.items())
+    return ", ".join([*named, *limits])
 
 
 def shown_if(part: Part) -> str:
@@ -135,7 +137,8 @@ def _left_out(rules: Exclusions) -> Iterator[str]:
     if rules.faster_than is not None:
         yield f"a median time per answer below {rules.faster_than:g} s"
     if rules.failed_attention is not None:
-        yield f"{rules.failed_attention} or more failed attention checks"
+        least = rules.failed_attention
+        yield "a failed attention check" if least == 1 else f"{least} or more failed attention checks"
     if rules.straight_lining:
         yield "the same answer to every item of a part"
 

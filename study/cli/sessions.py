@@ -188,7 +188,7 @@ def export(
     before = [version.protocol for version in earlier]
     table = export_responses(store, protocol, out, clips=files, earlier=before)
     store.close()
-    dataset = write_dataset(protocol, table, out / "psych-ds")
+    dataset = write_dataset(protocol, table, out / "psych-ds", earlier=before)
     console.print(f"{table} and its codebook are written, and as a Psych-DS dataset {dataset}.")
 
 

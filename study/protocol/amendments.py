@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import re
 from typing import Annotated
 
 from pydantic import Field, field_validator
@@ -10,6 +11,12 @@ from pydantic import Field, field_validator
 from study.written import A_HASH, Written, wrong
 
 SHORT = 12  # characters of a hash that are enough to know it by
+
+
+def as_replaced(sha256: str) -> str:
+    """A protocol's hash as `replaces` has it: short, and quoted where YAML would take it for a number."""
+    short = sha256[:SHORT]
+    return f'"{short}"' if re.fullmatch(r"\d+(e\d+)?", short) else short
 
 
 class Amendment(Written):

@@ -59,6 +59,8 @@ def _names(
     for at, condition in enumerate(hypothesis.compare or ()):
         what = f"level or modulation in {hypothesis.part}"
         yield from unknown((*here, "compare", at), condition, conditions, what)
+    if hypothesis.compare and hypothesis.compare[0] == hypothesis.compare[1]:
+        yield (*here, "compare"), f"compares {hypothesis.compare[0]} with itself"
     if hypothesis.of == "target" and not any(stimulus.name in items for stimulus in stimuli):
         yield (*here, "of"), f"needs items of {hypothesis.part} that bear the names of its modulations"
 

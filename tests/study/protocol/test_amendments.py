@@ -1,9 +1,16 @@
 """A study that has begun is changed only with a date and a reason."""
 
+from pathlib import Path
+
 import pytest
 
+from study.methods import methods
+from study.preregister import preregister
 from study.protocol import ProtocolError
+from study.protocol.amendments import as_replaced
 from study.versions import refuse_undeclared
+
+PAPER = Path(__file__).parents[3] / "protocols" / "hielscher2025"
 
 
 def amended(written, replaces):
@@ -22,7 +29,19 @@ def test_a_changed_protocol_is_refused_and_says_what_to_write(load, written):
     after = load(written | {"seed": 7})
     with pytest.raises(ProtocolError, match="has changed since participants took part") as refused:
         refuse_undeclared(after, {before})
-    assert f"replaces: {before[:12]}" in str(refused.value)
+    assert f"replaces: {as_replaced(before)}" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("sha256", "written"),
+    [
+        ("0123456789abcd", "0123456789ab"),
+        ("01234567890123", '"012345678901"'),
+        ("123e45678901", '"123e45678901"'),
+    ],
+)
+def test_a_hash_that_looks_like_a_number_is_quoted(sha256, written):
+    assert as_replaced(sha256) == written
 
 
 def test_a_declared_change_is_let_through_and_so_is_the_next(load, written):
@@ -52,19 +71,14 @@ def test_amendments_are_dated_reasoned_and_name_what_they_replace(load, written,
     assert message in refused.value.problems[0].message
 
 
-def test_the_preregistration_tells_of_amendments(tmp_path):
-    from pathlib import Path
-    from shutil import copytree
-
-    from study.preregister import preregister
-    from study.protocol import load_protocol
-
-    template = Path(__file__).parents[3] / "protocols" / "template"
-    folder = tmp_path / "study"
-    copytree(template, folder)
-    protocol = folder / "protocol.yaml"
-    more = "\namendments:\n  - {date: 2026-11-22, reason: A misspelt word, replaces: 0123456789ab}\n"
-    protocol.write_text(protocol.read_text(encoding="utf-8") + more, encoding="utf-8")
-    assert "Amended on 2026-11-22 (SHA-256 `0123456789ab` before): A misspelt word" in preregister(
-        load_protocol(folder)
-    )
+def test_the_documents_tell_of_amendments(load, written):
+    written["gestures"] = {name: str(PAPER / file) for name, file in written["gestures"].items()}
+    written["participants"]["stop"] = "by hand"
+    protocol = load(amended(written, "0123456789ab"))
+    document = preregister(protocol)
+    assert "Amended on 2026-11-22 (SHA-256 `0123456789ab` before): A typing error" in document
+    assert "To be registered beside what was registered before it began." in document
+    draft = methods(protocol)
+    assert "amended on 2026-11-22, after [number] participants: A typing error in the consent." in draft
+    assert "gathered until [when] we closed the study. [Number] took part" in draft
+    assert ".." not in draft

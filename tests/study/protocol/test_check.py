@@ -79,6 +79,24 @@ def test_what_is_declared_but_never_shown_is_to_be_minded(load, written):
     assert minded == [f"declared but shown in no part: {name}" for name in ("spare", "glee")]
 
 
+def test_what_a_slip_of_the_pen_leaves_is_to_be_minded(load, written):
+    written["title"] = "How does the robot move?"
+    written["modulations"]["glee"] = written["modulations"]["joy"]
+    written["parts"]["recognition"]["stimuli"]["modulations"].append("glee")
+    report = check(load(written))
+    assert found(report, "stimuli").message == "joy and glee are the same motion"
+    minded = [one.message for one in report.findings if one.verdict == "mind"]
+    assert "some are in de too, but not the title: nobody sees them" in minded
+
+
+def test_of_very_many_participants_the_first_are_counted(load, written, monkeypatch):
+    monkeypatch.setattr("study.check.DRAWN", 12)
+    written["parts"]["recognition"]["order"] = {"stimuli": "shuffled", "max_run": {"modulation": 2}}
+    report = check(load(written))
+    brief = "shuffled, at most 2 of one modulation in a row: of the first 12, in each position"
+    assert found(report, "recognition").message.startswith(brief)
+
+
 def test_a_gesture_that_is_eased_is_to_be_minded(load, written, tmp_path):
     (tmp_path / "gestures").mkdir()
     samples = "".join(f"{k / 50},{0.4 * k / 50}\n" for k in range(51))

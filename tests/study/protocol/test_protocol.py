@@ -221,6 +221,14 @@ def test_two_parts_with_the_same_stimulus_need_a_prefix(load, written):
     assert load(written).parts["again"].stimuli == ("wave_joy", "wave_fear")
 
 
+def test_the_shipped_consent_says_that_the_recruitment_service_tells_who_somebody_is(load, written):
+    assert "Your id" not in load(written).texts.consent.in_("en")
+    recruited = written | {"participants": {"planned": 12, "recruitment": {"service": "sona"}}}
+    told = load(recruited).texts.consent
+    assert "**Your id at SONA.** SONA tells us your id there." in told.in_("en")
+    assert "**Ihre Kennung bei SONA.** SONA nennt uns" in told.in_("de")
+
+
 def test_the_shipped_consent_names_who_is_responsible_and_the_approval_where_they_are_given(load, written):
     told = load(written | {"authors": ["Ada Example", "Ben Example"], "ethics": "2026-017"}).texts.consent
     open_ = load({name: value for name, value in written.items() if name != "authors"}).texts.consent
@@ -262,6 +270,7 @@ def test_a_camera_is_one_of_the_scenes(load, written):
         ("parts.recognition.ask.0", {"likert": {}}, "is no kind of question; did you mean rate?"),
         ("parts.intensity.ask.0.choose.options", ["one"], "needs at least 2"),
         ("parts.intensity.ask.0.choose.options", ["one", "one"], "names one twice"),
+        ("analysis.H2.1.compare", ["high", "high"], "compares high with itself"),
         ("authors", "Ada", "must be a list, such as [Ada]"),
         ("video.size", "1280×720", "must be width and height in pixels, such as 1280x720"),
         ("video.size", "10x720", "must be at least 16x16 and at most 7680x4320"),

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from study.protocol import Protocol
+from study.protocol import Protocol, load_protocol
 from study.psych_ds import write_dataset
 from study.simulation import rehearse
 
@@ -31,6 +31,16 @@ def test_what_must_and_should_be_there_is(dataset: Path) -> None:
         *("dataset_description.json", "README.md", "CHANGES.md", "data", "documentation", "materials")
     }
     assert all(path.stat().st_size > 0 for path in dataset.rglob("*"))
+
+
+def test_the_protocol_is_there_whole_and_as_it_was_before_amendments(
+    dataset: Path, protocol: Protocol, tmp_path: Path
+) -> None:
+    table = tmp_path / "export" / "responses.csv"
+    write_dataset(protocol, table, dataset, kind="simulated", earlier=[protocol])
+    for kept in (dataset / "materials", dataset / "materials" / "versions" / protocol.sha256):
+        assert load_protocol(kept).sha256 == protocol.sha256
+    assert "`materials/versions/HASH`" in (dataset / "README.md").read_text("utf-8")
 
 
 def test_data_files_are_named_by_official_keywords(dataset: Path) -> None:
