@@ -247,6 +247,8 @@ class Protocol(Written):
     def texts(self) -> Texts:
         """The texts around the questions, the protocol's own or else the shipped ones, ready to be shown."""
         unknown = [name for name in ("authors", "ethics") if not getattr(self, name)]
+        if self.participants.recruitment.service is None:
+            unknown.append("service")
         return Texts(
             **{
                 name: self._completed(
@@ -280,6 +282,7 @@ class Protocol(Written):
             "contact": Text(self.contact),
             "authors": Text(", ".join(self.authors)),
             "ethics": Text(self.ethics or ""),
+            "service": Text(self.participants.recruitment.called or ""),
             "videos": Text(str(videos)),
             "minutes": Text(str(minutes)),
         }

@@ -19,6 +19,7 @@ PARAMETERS: Mapping[Service, str] = {  # in the address they send people to: wha
     "sona": "survey_code",
     "mturk": "workerId",
 }
+NAMES: Mapping[Service, str] = {"prolific": "Prolific", "sona": "SONA", "mturk": "MTurk"}
 GAPS = ("id", "code")  # in a completion address, in braces
 HOSTS = ("app.prolific.com", "*.sona-systems.com", "worker.mturk.com", "workersandbox.mturk.com")
 ADDRESS = re.compile(
@@ -56,6 +57,11 @@ class Recruitment(Written):
     def parameter(self) -> str | None:
         """Under which name the service's links say who somebody is."""
         return PARAMETERS[self.service] if self.service else None
+
+    @property
+    def called(self) -> str | None:
+        """What people know the service as."""
+        return NAMES[self.service] if self.service else None
 
     def completion_address(self, *, external_id: str | None, code: str) -> str | None:
         """Where somebody goes at the end."""

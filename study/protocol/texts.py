@@ -1,8 +1,8 @@
 """The texts around the questions: shipped in English and German, or a protocol's own.
 
 A text is Markdown, written in the protocol or in a file of its own (a value that ends in `.md`). In it,
-{title}, {contact}, {authors}, {ethics}, {videos} and {minutes} stand for what the study has there; a
-paragraph of a shipped text that names what a study leaves open is left out.
+{title}, {contact}, {authors}, {ethics}, {service}, {videos} and {minutes} stand for what the study has there;
+a paragraph of a shipped text that names what a study leaves open is left out.
 """
 
 from __future__ import annotations
