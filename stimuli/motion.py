@@ -45,11 +45,8 @@ def generate(spec: StimulusSpec, robot: Robot) -> Motion:
             f"{spec.gesture}: the demonstration itself exceeds what {robot.name} can do: {in_short(beyond)}"
         )
     primitive, modulation = Primitive.learn(demonstration, spec.learning), spec.modulation
-    tau_s = primitive.course(modulation, robot).tau_s
-    if tau_s < LEAST_STEPS * spec.learning.dt_s:
-        least = f"less than {LEAST_STEPS} steps of {spec.learning.dt_s:g} s; take a larger time.intensity"
-        raise InputError(f"{spec.id}: lasts {tau_s:.2g} s, {least}")
     try:
+        _refuse_too_short(primitive.course(modulation, robot).tau_s, spec.learning.dt_s)
         trajectory = primitive.rollout(modulation, robot)
         exceeded = violations(trajectory, robot)
         if exceeded and (longer := retimed(primitive, modulation, robot)):
@@ -63,3 +60,9 @@ def generate(spec: StimulusSpec, robot: Robot) -> Motion:
     for joint, growth in growths(primitive.course(modulation, robot)).items():
         left[joint]["anticipation_growth"] = growth
     return Motion(demonstration, trajectory, modulation, left)
+
+
+def _refuse_too_short(tau_s: float, dt_s: float) -> None:
+    if tau_s < LEAST_STEPS * dt_s:
+        least = f"less than {LEAST_STEPS} steps of {dt_s:g} s; take a larger time.intensity"
+        raise InputError(f"lasts {tau_s:.2g} s, {least}")

@@ -207,9 +207,8 @@ def _texts(protocol: Protocol) -> Iterator[Finding]:
     else:
         yield Finding("good", "texts", f"complete in {listed(protocol.languages)}")
     if unseen := unseen_languages(protocol):
-        yield Finding(
-            "mind", "texts", f"some are in {listed(unseen)} too, but not the title: nobody sees them"
-        )
+        seen = f"the study is in {listed(protocol.languages)}, as its title or `languages` says"
+        yield Finding("mind", "texts", f"nobody sees those in {listed(unseen)}: {seen}")
     for language in protocol.languages:
         if language not in interface_languages():
             yield Finding(

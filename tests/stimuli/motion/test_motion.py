@@ -45,8 +45,12 @@ def spec(tmp_path):
 
 
 def test_a_motion_too_short_to_tell_its_speed_is_refused(spec, robot):
-    with pytest.raises(InputError, match=r"lasts 0\.002 s, less than 10 steps of 0\.01 s; take a larger time"):
+    with pytest.raises(
+        InputError, match=r"^lift_high: lasts 0\.002 s, less than 10 steps of 0\.01 s; take a larger time"
+    ):
         generate(spec(time=0.001), robot)
+    with pytest.raises(InputError, match=r"^lift_high: ant\.intensity: 5"):
+        generate(spec(ant={"intensity": 5}), robot)
 
 
 def test_a_plain_stimulus_moves_as_demonstrated(spec, robot):

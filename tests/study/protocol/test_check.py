@@ -86,7 +86,7 @@ def test_what_a_slip_of_the_pen_leaves_is_to_be_minded(load, written):
     report = check(load(written))
     assert found(report, "stimuli").message == "joy and glee are the same motion"
     minded = [one.message for one in report.findings if one.verdict == "mind"]
-    assert "some are in de too, but not the title: nobody sees them" in minded
+    assert "nobody sees those in de: the study is in en, as its title or `languages` says" in minded
 
 
 def test_of_very_many_participants_the_first_are_counted(load, written, monkeypatch):
