@@ -19,7 +19,8 @@ GLOSSARY = {
     "Wilcoxon": "Signed-rank test, zeros after Pratt, normal approximation corrected for ties. "
     'R: coin::wilcoxsign_test(zero.method = "Pratt")',
     "rank biserial": "Rank-biserial correlation: share of rank sum above minus below the null value.",
-    "binomial": "Exact binomial test that more than half chose the answer that fits the level. R: binom.test",
+    "binomial": "Exact binomial test that more than half (two-sided: other than half) chose the answer that "
+    "fits the level. R: binom.test",
     "preference": "Exact binomial test that either is chosen equally often. R: binom.test",
     "Clopper-Pearson": "Exact interval of the share. R: binom.test(k, n)$conf.int",
     "Wilson": "Wilson's score interval of the share that fits the level. R: prop.test(correct = FALSE)",

@@ -17,7 +17,7 @@ from analysis.statistics.paired_t import d_av, paired_t
 from analysis.statistics.samples import Moments, moments, observed, observed_pairs
 from analysis.statistics.sign_flip import SignFlip, sign_flip
 from analysis.statistics.student_t import student_t
-from analysis.statistics.t_test import TTest
+from analysis.statistics.t_test import Alternative, TTest
 from analysis.statistics.welch_t import welch_t
 from analysis.statistics.wilcoxon import Wilcoxon, wilcoxon
 from analysis.target import Judging, Verdict, judge
@@ -111,14 +111,15 @@ class _Tests:
         high, low = self.comparison.levels
         x, y = observed(first), observed(second)
         k1, n1, k2, n2 = int(x.sum()), x.size, int(y.sum()), y.size
+        than_half: Alternative = "two-sided" if judging.alternative == "two-sided" else "greater"
         return Choices(
             counts={high: (k1, n1 - k1), low: (k2, n2 - k2)},
             mcnemar=mcnemar(first, second),
             fisher=fisher(k1, n1, k2, n2, judging.alternative),
             difference=newcombe(k1, n1, k2, n2),
             binomial={
-                high: binomial(k1, n1, 0.5, judging.alternative),
-                low: binomial(n2 - k2, n2, 0.5, judging.alternative),
+                high: binomial(k1, n1, 0.5, than_half),
+                low: binomial(n2 - k2, n2, 0.5, than_half),
             },
         )
 

@@ -52,3 +52,15 @@ def test_a_test_that_is_undefined_confirms_nothing() -> None:
     assert "equal variances (Welch's t: undefined)" in assumptions(found)
     choices = np.array([[1, 0]] * 8)
     assert assumptions(levels(choices, "mcnemar", "greater", ("no", "yes"), "yes")) == ""
+
+
+@pytest.mark.parametrize(
+    ("alternative", "p"), [("greater", 7 / 64), ("less", 7 / 64), ("two-sided", 14 / 64)]
+)
+def test_whether_most_chose_a_levels_own_answer_is_asked_upwards_or_of_both_sides(
+    alternative: Alternative, p: float
+) -> None:
+    codes = np.array([[1, 0]] * 5 + [[0, 1]])
+    choices = levels(codes, "mcnemar", alternative, ("no", "yes"), "yes").results["pair"].choices
+    assert choices is not None
+    assert [test.p for test in choices.binomial.values()] == pytest.approx([p, p])  # R: binom.test(5, 6)
