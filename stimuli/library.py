@@ -15,7 +15,7 @@ from pathlib import Path
 
 from stimuli.backends import backends
 from stimuli.filming import Filmed
-from stimuli.manifest import Clip, Framing, Manifest, sha256_of
+from stimuli.manifest import Clip, Framing, Manifest
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec
 from stimuli.whole_files import sweep
@@ -51,7 +51,7 @@ def render_missing(
     sweep(folder)
     manifest = Manifest.load(folder)
     framing, specs = _framed(specs, robots, manifest.framing)
-    whole = {clip.spec_sha256: clip for clip in manifest.stimuli.values() if _is_whole(clip, folder)}
+    whole = {clip.spec_sha256: clip for clip in manifest.stimuli.values() if clip.is_whole(folder)}
     missing = {spec.sha256: spec for spec in specs if spec.sha256 not in whole}
     told = progress or (lambda _: None)
     told(Progress(0, len(missing)))
@@ -122,11 +122,6 @@ def _closest_camera(specs: Sequence[StimulusSpec], robot: Robot) -> str:
 
     motions = [generate(spec, robot).trajectory for spec in specs]
     return closest_camera(robot, motions, width=specs[0].video.width, height=specs[0].video.height)
-
-
-def _is_whole(clip: Clip, folder: Path) -> bool:
-    path = folder / clip.file
-    return path.is_file() and path.stat().st_size == clip.size_bytes and sha256_of(path) == clip.file_sha256
 
 
 def _as(spec: StimulusSpec, clip: Clip) -> Clip:

@@ -40,6 +40,13 @@ class Clip(BaseModel):
     software: Mapping[str, str]
     gl_renderer: str
 
+    def is_whole(self, folder: Path) -> bool:
+        """Whether its file is there, as it was rendered."""
+        path = folder / self.file
+        return (
+            path.is_file() and path.stat().st_size == self.size_bytes and sha256_of(path) == self.file_sha256
+        )
+
 
 class Framing(BaseModel):
     """The camera chosen for those stimuli of a robot that left it to us."""
@@ -74,7 +81,7 @@ class Manifest(BaseModel):
         except ValidationError as error:
             raise InputError(
                 f"{path}: this is not a manifest of clips ({error.errors()[0]['msg']}). "
-                "Delete it and render again; clips that are there and whole are not drawn twice."
+                "Delete it and render again: `study render` then draws all of them anew."
             ) from error
 
     def save(self, folder: Path) -> None:

@@ -15,6 +15,8 @@ from stimuli.robots.model import Robot
 from stimuli.side_by_side import poster, side_by_side
 from stimuli.spec import StimulusSpec
 
+LONGEST = 80  # characters of a file's name
+
 
 def draw_preview(
     manifest: Manifest,
@@ -31,8 +33,12 @@ def draw_preview(
     for id_ in stimuli:
         if id_ not in manifest.clips:
             raise InputError(f"{folder}: there is no clip of {id_!r}; {nearest(id_, manifest.clips)}")
+    for id_ in stimuli or manifest.clips:
+        if not (clip := manifest.clips[id_]).is_whole(folder):
+            remedy = "`study render` makes it again"
+            raise InputError(f"{folder / clip.file}: the clip of {id_} is missing or damaged; {remedy}")
     out.mkdir(parents=True, exist_ok=True)
-    name = "-".join(stimuli) or "contact_sheet"
+    name = _name_of(stimuli)
     drawn = [
         contact_sheet(manifest, folder, out / f"{name}.png", stimuli=stimuli or None),
         write_descriptors(manifest, out / "descriptors.csv"),
@@ -45,6 +51,12 @@ def draw_preview(
     if len(stimuli) > 1:
         drawn.append(side_by_side(manifest, folder, stimuli, out / f"{name}.mp4"))
     return drawn
+
+
+def _name_of(stimuli: Sequence[str]) -> str:
+    """Name of the files that show them all."""
+    name = "-".join(stimuli) or "contact_sheet"
+    return name if len(name) <= LONGEST else f"{stimuli[0][:LONGEST]}-and-{len(stimuli) - 1}-more"
 
 
 def write_descriptors(manifest: Manifest, out: Path) -> Path:

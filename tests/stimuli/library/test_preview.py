@@ -77,6 +77,30 @@ def test_the_curves_show_the_joints_that_move_demonstrated_and_made(
     assert made.get_xdata()[-1] > demonstrated.get_xdata()[-1]
 
 
+def test_a_clip_that_is_missing_or_damaged_is_named(
+    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+) -> None:
+    manifest, _ = clips
+    file = manifest.clips["slow"].file
+    for content in (None, b"junk"):
+        if content:
+            (tmp_path / file).write_bytes(content)
+        with pytest.raises(InputError, match=rf"{file}: the clip of slow is missing or damaged"):
+            draw_preview(manifest, tmp_path, tmp_path, stimuli=["slow"], robots={"pepper": pepper})
+
+
+def test_many_stimuli_share_a_file_whose_name_is_not_too_long(
+    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+) -> None:
+    manifest, folder = clips
+    names = [f"{letter * 60}" for letter in "ab"]
+    many = Manifest(stimuli=dict.fromkeys(names, manifest.clips["neutral"]))
+    drawn = draw_preview(many, folder, tmp_path, stimuli=names, robots={"pepper": pepper})
+    assert [path.name for path in (drawn[0], drawn[-1])] == [
+        f"{names[0]}-and-1-more{end}" for end in (".png", ".mp4")
+    ]
+
+
 def test_a_stimulus_that_is_not_there_is_named_with_the_nearest(
     clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
 ) -> None:
