@@ -25,10 +25,12 @@ def draw_preview(
     *,
     stimuli: Sequence[str] = (),
     robots: Mapping[str, Robot],
+    gestures: Mapping[str, Path],
 ) -> list[Path]:
     """Draw a contact sheet and write the descriptors of all clips; of those named, also the rest.
 
     That is a poster and the joints' curves of each, and, of two or more, a clip of them side by side.
+    `gestures` are the demonstrations' files by their hashes.
     """
     for id_ in stimuli:
         if id_ not in manifest.clips:
@@ -46,7 +48,11 @@ def draw_preview(
     for id_ in stimuli:
         drawn.append(poster(manifest, folder, id_, out / f"{id_}.poster.png"))
         spec = StimulusSpec.model_validate(manifest.clips[id_].spec)
-        robot = robots[spec.robot]
+        if spec.gesture_sha256 not in gestures:
+            raise InputError(
+                f"{id_}: {spec.gesture.name} has changed since the clip was rendered: render again"
+            )
+        spec, robot = spec.model_copy(update={"gesture": gestures[spec.gesture_sha256]}), robots[spec.robot]
         drawn.append(draw_curves(generate(spec, robot), robot, out / f"{id_}.curves.png", title=id_))
     if len(stimuli) > 1:
         drawn.append(side_by_side(manifest, folder, stimuli, out / f"{name}.mp4"))

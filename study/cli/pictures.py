@@ -65,6 +65,7 @@ def preview(
     from stimuli.manifest import Manifest
     from stimuli.preview import draw_preview
     from stimuli.robots import load_robot
+    from study.specs import specs
 
     protocol = load(path)
     folder = clips or protocol.folder / "stimuli"
@@ -74,9 +75,15 @@ def preview(
         raise InputError(f"{folder}: there are no clips yet. `{makes}` makes them.")
     names = {clip.spec["robot"] for clip in manifest.clips.values()}
     robots = {name: load_robot(name, protocol.folder) for name in names}
+    gestures = {spec.gesture_sha256: spec.gesture for spec in specs(protocol).values()} if stimuli else {}
     with console.status("drawing …"):
         drawn = draw_preview(
-            manifest, folder, out or folder / "preview", stimuli=stimuli or (), robots=robots
+            manifest,
+            folder,
+            out or folder / "preview",
+            stimuli=stimuli or (),
+            robots=robots,
+            gestures=gestures,
         )
     console.print(_descriptors(manifest, stimuli))
     console.print("\n".join(f"{file}" for file in drawn))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import shutil
 from pathlib import Path
 
 import av
@@ -19,6 +20,14 @@ from stimuli.preview import draw_preview
 from stimuli.robots.model import Robot
 from stimuli.spec import StimulusSpec
 
+Gestures = dict[str, Path]
+
+
+@pytest.fixture
+def gestures(study: list[StimulusSpec], tmp_path: Path) -> Gestures:
+    """The study's only demonstration by its hash; it lies elsewhere now."""
+    return {study[0].gesture_sha256: Path(shutil.copy(study[0].gesture, tmp_path / "moved.yaml"))}
+
 
 @pytest.fixture
 def clips(rendered: tuple[Manifest, Path, list[Progress]]) -> tuple[Manifest, Path]:
@@ -26,9 +35,9 @@ def clips(rendered: tuple[Manifest, Path, list[Progress]]) -> tuple[Manifest, Pa
 
 
 def test_a_preview_of_all_is_a_contact_sheet_and_a_table(
-    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+    clips: tuple[Manifest, Path], pepper: Robot, gestures: Gestures, tmp_path: Path
 ) -> None:
-    sheet, table = draw_preview(*clips, tmp_path, robots={"pepper": pepper})
+    sheet, table = draw_preview(*clips, tmp_path, robots={"pepper": pepper}, gestures=gestures)
     with Image.open(sheet) as picture:
         assert np.asarray(picture).std() > 10
     rows = list(csv.DictReader(table.read_text().splitlines()))
@@ -38,9 +47,11 @@ def test_a_preview_of_all_is_a_contact_sheet_and_a_table(
 
 
 def test_stimuli_named_get_poster_curves_and_a_comparison(
-    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+    clips: tuple[Manifest, Path], pepper: Robot, gestures: Gestures, tmp_path: Path
 ) -> None:
-    drawn = draw_preview(*clips, tmp_path, stimuli=["neutral", "slow"], robots={"pepper": pepper})
+    drawn = draw_preview(
+        *clips, tmp_path, stimuli=["neutral", "slow"], robots={"pepper": pepper}, gestures=gestures
+    )
     assert sorted(path.name for path in drawn) == sorted(
         [
             "neutral-slow.png",
@@ -77,8 +88,15 @@ def test_the_curves_show_the_joints_that_move_demonstrated_and_made(
     assert made.get_xdata()[-1] > demonstrated.get_xdata()[-1]
 
 
-def test_a_clip_that_is_missing_or_damaged_is_named(
+def test_curves_are_of_the_demonstration_a_clip_was_rendered_from(
     clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=r"slow: nod\.yaml has changed since the clip was rendered"):
+        draw_preview(*clips, tmp_path, stimuli=["slow"], robots={"pepper": pepper}, gestures={})
+
+
+def test_a_clip_that_is_missing_or_damaged_is_named(
+    clips: tuple[Manifest, Path], pepper: Robot, gestures: Gestures, tmp_path: Path
 ) -> None:
     manifest, _ = clips
     file = manifest.clips["slow"].file
@@ -86,23 +104,25 @@ def test_a_clip_that_is_missing_or_damaged_is_named(
         if content:
             (tmp_path / file).write_bytes(content)
         with pytest.raises(InputError, match=rf"{file}: the clip of slow is missing or damaged"):
-            draw_preview(manifest, tmp_path, tmp_path, stimuli=["slow"], robots={"pepper": pepper})
+            draw_preview(
+                manifest, tmp_path, tmp_path, stimuli=["slow"], robots={"pepper": pepper}, gestures=gestures
+            )
 
 
 def test_many_stimuli_share_a_file_whose_name_is_not_too_long(
-    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+    clips: tuple[Manifest, Path], pepper: Robot, gestures: Gestures, tmp_path: Path
 ) -> None:
     manifest, folder = clips
     names = [f"{letter * 60}" for letter in "ab"]
     many = Manifest(stimuli=dict.fromkeys(names, manifest.clips["neutral"]))
-    drawn = draw_preview(many, folder, tmp_path, stimuli=names, robots={"pepper": pepper})
+    drawn = draw_preview(many, folder, tmp_path, stimuli=names, robots={"pepper": pepper}, gestures=gestures)
     assert [path.name for path in (drawn[0], drawn[-1])] == [
         f"{names[0]}-and-1-more{end}" for end in (".png", ".mp4")
     ]
 
 
 def test_a_stimulus_that_is_not_there_is_named_with_the_nearest(
-    clips: tuple[Manifest, Path], pepper: Robot, tmp_path: Path
+    clips: tuple[Manifest, Path], pepper: Robot, gestures: Gestures, tmp_path: Path
 ) -> None:
     with pytest.raises(InputError, match=r"there is no clip of 'slwo'; did you mean slow\?"):
-        draw_preview(*clips, tmp_path, stimuli=["slwo"], robots={"pepper": pepper})
+        draw_preview(*clips, tmp_path, stimuli=["slwo"], robots={"pepper": pepper}, gestures=gestures)
