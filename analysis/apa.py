@@ -77,6 +77,15 @@ def interval(limits: tuple[float | None, float | None] | None, decimals: int = 2
     return f"[{number(low, decimals)}, {'∞' if high is None else number(high, decimals)}]"
 
 
+def estimate(value: float | None, limits: tuple[float | None, float | None] | None) -> str:
+    """An estimate and its interval, as far as there are any.
+
+    >>> print(estimate(0.68, (0.19, 1.17)), estimate(3, None), estimate(None, None))
+    0.68 [0.19, 1.17] 3.00 –
+    """
+    return number(value) if limits is None else f"{number(value)} {interval(limits)}"
+
+
 def share(count: int, total: int, decimals: int = 2) -> str:
     """count/total rounded half up from the exact fraction, "0.79"; a dash for 0/0."""
     if total == 0:

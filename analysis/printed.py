@@ -107,7 +107,7 @@ def _target_rows(outcome: Targets, labels: Mapping[str, str]) -> list[list[str]]
             labels.get(key, key.capitalize()), str(one.summary.n), apa.number(one.summary.mean),
             apa.number(one.summary.sd), apa.number(test.t), apa.degrees(test.df),
             _p(test.p, outcome), _p(one.verdict.p_adjusted, outcome),
-            f"{apa.number(test.d)} {apa.interval(test.d_ci95)}",
+            apa.estimate(test.d, test.d_ci95),
         ])  # fmt: skip
     return rows
 
@@ -138,10 +138,10 @@ def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
         rows.append([
             labels.get(key, key.capitalize()), " / ".join(found),
             apa.number(test.t), apa.degrees(test.df), _p(test.p, outcome),
-            _p(one.verdict.p_adjusted, outcome), f"{apa.number(test.d)} {apa.interval(test.d_ci95)}",
+            _p(one.verdict.p_adjusted, outcome), apa.estimate(test.d, test.d_ci95),
             _p(choices.mcnemar.p(outcome.judging.alternative) if choices else one.welch.p, outcome),
-            f"{apa.number(choices.difference.estimate)} {apa.interval(choices.difference.ci95)}"
-            if choices else f"{apa.number(test.estimate)} {apa.interval(test.ci95)}",
+            apa.estimate(choices.difference.estimate, choices.difference.ci95)
+            if choices else apa.estimate(test.estimate, test.ci95),
         ])  # fmt: skip
     return rows
 
