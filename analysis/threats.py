@@ -23,6 +23,9 @@ def threats(protocol: Protocol) -> Iterator[str]:
         f"{shown}. A gesture is one draw from all gestures; statistics alone do not carry the results "
         "over to others."
     )
+    for change in protocol.amendments:
+        amended = f"The protocol was amended on {change.date} ({change.reason.rstrip('.')})"
+        yield f"{amended}; who took part before and after is analysed together."
     if any(hypothesis.of == "target" for hypothesis in protocol.analysis.hypotheses.values()):
         yield (
             "One question per judgement is a Likert item, not a scale; t-tests treat its points as equally "

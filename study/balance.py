@@ -87,16 +87,16 @@ def _balance(protocol: Protocol, part: Part, plans: Iterable[Plan]) -> Balance:
     )
 
 
-def orders_csv(plans: Sequence[Plan]) -> str:
+def orders_csv(protocol: Protocol, plans: Sequence[Plan]) -> str:
     """Every trial of every plan, one row each, as a table for a spreadsheet."""
     table = io.StringIO()
     rows = csv.writer(table)
     rows.writerow(["slot", "part", "trial", "stimulus", "reference", "left", "items", "options"])
     for plan in plans:
         for trial in plan.trials:
-            items, options = (
-                " | ".join(" ".join(q) for q in shown) for shown in (trial.items, trial.options)
-            )
+            asked = [*trial.asked(protocol.parts[trial.part])]
+            items = " | ".join(" ".join(items) for _, items, _ in asked)
+            options = " | ".join(" ".join(options) for _, _, options in asked)
             clips = (trial.stimulus, trial.reference or "", trial.pair[0] if trial.pair else "")
             rows.writerow([plan.slot, trial.part, trial.number, *clips, items, options])
     return table.getvalue()

@@ -38,6 +38,6 @@ def load_robot(name_or_path: str, base: Path) -> Robot:
 
         return described_robot(name_or_path)
     raise InputError(
-        f"robot: {name_or_path!r} is not a robot; {nearest(name_or_path, ROBOTS)} "
+        f"robot: {name_or_path!r} is not a robot; {nearest(name_or_path, ROBOTS)}\n"
         "One of your own is the path of its YAML file, or robot_descriptions/NAME."
     )

@@ -63,7 +63,7 @@ def orders(
     if as_json:
         print_json([asdict(plan) for plan in plans])
     else:
-        sys.stdout.write(orders_csv(plans))
+        sys.stdout.write(orders_csv(protocol, plans))
         sys.stdout.flush()
         Console(stderr=True, highlight=False, soft_wrap=True).print(balance_table(counts))
 

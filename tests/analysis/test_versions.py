@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from analysis.fields import ResponsesError
+from analysis.threats import threats
 from analysis.versions import of_one_study
 from study.protocol import load_protocol
 from tests.analysis.conftest import PAPER
@@ -46,6 +47,13 @@ def test_rows_of_a_declared_version_count_and_are_named_where_they_do_not_fit(ro
         of_one_study(rows, load_protocol(protocol)),
     ):
         raise ResponsesError("a stimulus is gone")
+
+
+def test_the_report_says_that_versions_are_taken_together(rows: Path) -> None:
+    protocol = rows.parent / "protocol.yaml"
+    protocol.write_text(protocol.read_text(encoding="utf-8") + AMENDED, encoding="utf-8")
+    (said,) = (one for one in threats(load_protocol(protocol)) if "amended" in one)
+    assert said.startswith("The protocol was amended on 2026-11-22 (A misspelt word); who took part before")
 
 
 def test_a_table_that_does_not_say_its_version_is_taken_as_it_is(tmp_path: Path) -> None:

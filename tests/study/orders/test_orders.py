@@ -1,6 +1,8 @@
 """Orders are balanced, reproducible, and fill up evenly."""
 
 import copy
+import csv
+import io
 import random
 from collections import Counter
 from dataclasses import replace
@@ -13,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stimuli.errors import InputError
-from study.balance import balance, balance_table
+from study.balance import balance, balance_table, orders_csv
 from study.chance import Stream
 from study.designs import latin_square, williams
 from study.orders import assign_slot, cycle, draw_plan
@@ -241,6 +243,13 @@ def test_items_are_shuffled_once_per_participant():
         (items,) = {trial.items for trial in draw_plan(protocol, slot).trials if trial.part == "recognition"}
         seen.add(items)
     assert len(seen) > 8
+
+
+def test_the_csv_names_what_is_asked_on_each_page():
+    protocol = load_protocol(PAPER.folder.parent / "online")
+    rows = list(csv.DictReader(io.StringIO(orders_csv(protocol, [draw_plan(protocol, 0)]))))
+    checked = [row["trial"] for row in rows if "attention" in row["items"]]
+    assert checked == ["4", "9"]
 
 
 def test_the_table_tells_positions_and_who_follows_whom():
