@@ -17,9 +17,11 @@ from study.web.limits import Limits
 from study.web.pages import STATIC, render, static_version
 from study.web.security import Guard
 from study.web.site import Site
-from study.web.visitor import language_of
+from study.web.visitor import has_token, language_of
 
-LONGEST_BODY = 256 * 1024  # bytes; an answered page with its playback records has some 10 kB
+LONGEST_BODY = 256 * 1024
+"""Bytes. An answered page with its playback records has some 10 kB; one of two clips with all the happenings
+that are kept and the five longest texts, in letters of three bytes, has 210 kB, and must not be refused."""
 TRY_AGAIN_S = 5
 FOR_EVER = {"Cache-Control": "public, max-age=31536000, immutable"}
 
@@ -95,6 +97,7 @@ def create_app(site: Site) -> FastAPI:
             status=fault.status_code,
             heading=heading,
             message=message,
+            way_back=has_token(request),
         )
         page.headers.update(fault.headers or {})
         return page

@@ -70,7 +70,7 @@ function firstMissing() {
   const item = answers.items.find((name) => {
     const field = form.elements[name];
     const one = field instanceof RadioNodeList ? field[0] : field;
-    return one.required && !new FormData(form).get(name);
+    return one.required && !new FormData(form).get(name)?.trim(); // spaces are no answer
   });
   for (const row of form.querySelectorAll("[data-item]")) row.classList.toggle("missing", row.dataset.item === item);
   return item && form.querySelector(`[name="${CSS.escape(item)}"]`);

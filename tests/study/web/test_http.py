@@ -164,6 +164,35 @@ def test_other_sites_cannot_send_anything(visitor: httpx.Client, headers: dict[s
     assert visitor.post("/start", headers=headers).status_code == 403
 
 
+def test_who_takes_part_finds_the_way_back_from_a_page_that_is_not_there(visitor: httpx.Client) -> None:
+    assert "Back to the study" not in visitor.get("/nowhere").text
+    begin(visitor)
+    for path in ("/nowhere", "/consent", "/p/nobody"):  # mistyped, or opened again by the browser
+        assert 'href="/study">Back to the study' in visitor.get(path).text
+
+
+def test_the_most_that_an_honest_page_sends_is_read(visitor: httpx.Client) -> None:
+    begin(visitor)
+    happening = {"at_ms": 123456.70000000298, "name": "seek refused", "media_s": 12.345678}
+    view = {
+        "plays": 1,
+        "played_s": 1,
+        "duration_s": 1,
+        "frames": 1,
+        "dropped": 0,
+        "happenings": [happening] * 400,
+    }
+    sent = {
+        "id": str(uuid4()),
+        "step": "demographics",
+        "answers": [{"item": f"remark{n}", "value": "語" * 10_000} for n in range(5)],
+        "views": [view | {"role": role} for role in ("left", "right")],
+        "on_page_ms": 1,
+    }
+    refused = visitor.post("/study/answers", json=sent)
+    assert (refused.status_code, refused.json()["reason"]) == (422, "remark0 is not asked here")
+
+
 def test_more_than_any_page_sends_is_refused(visitor: httpx.Client) -> None:
     begin(visitor)
     assert visitor.post("/study/answers", content=b"x" * 300_000).status_code == 413

@@ -93,6 +93,10 @@ def test_sliders_ranks_and_checks_by_keyboard(page: Page, inspector, address: st
     page.get_by_label("green").check()
     for row in page.get_by_role("radiogroup", name="Please rate").all():
         row.get_by_role("radio").nth(4).check()
+    page.get_by_label("What did you think?").fill(" \n")
+    page.get_by_role("button", name="Continue", exact=True).click()
+    expect(page.locator("#notice")).to_have_text("Please answer every question.")
+    expect(page.get_by_label("What did you think?")).to_be_focused()
     page.get_by_label("What did you think?").fill("=1+1")
     for width in inspector.WIDTHS:
         page.set_viewport_size({"width": width, "height": 844})
