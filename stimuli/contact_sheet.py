@@ -11,7 +11,8 @@ from PIL import Image, ImageDraw, ImageFont
 
 from stimuli.manifest import Clip, Manifest
 
-GAP, LABEL = 4, 130  # pixels
+GAP = 4  # pixels
+FONT = ImageFont.load_default(size=15)
 BACKDROP = 24  # of 255: a row of the backdrop differs by less from its first pixel, a robot by more
 MARGIN = 0.02  # of a picture's width, on either side of the robots
 
@@ -31,15 +32,16 @@ def contact_sheet(
     left, right = _where_robots_are([frame for row in rows for frame in row])
     rows = [[frame.crop(_between(left, right, frame)) for frame in row] for row in rows]
     width = max((frame.width for row in rows for frame in row), default=0)
-    size = (LABEL + columns * (width + GAP), GAP + len(ids) * (frame_height + GAP))
+    label = 3 * GAP + max((round(FONT.getlength(id_)) for id_ in ids), default=0)
+    size = (label + columns * (width + GAP), GAP + len(ids) * (frame_height + GAP))
     sheet = Image.new("RGB", size, "white")
-    draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(size=15)
+    draw = ImageDraw.Draw(sheet)
     for number, (id_, row) in enumerate(zip(ids, rows, strict=True)):
         top = GAP + number * (frame_height + GAP)
-        label = f"{id_}\n{manifest.clips[id_].duration_s:.2f} s"
-        draw.text((GAP, top + frame_height // 2 - 16), label, fill="black", font=font)
+        text = f"{id_}\n{manifest.clips[id_].duration_s:.2f} s"
+        draw.text((GAP, top + frame_height // 2 - 16), text, fill="black", font=FONT)
         for column, frame in enumerate(row):
-            sheet.paste(frame, (LABEL + column * (width + GAP), top))
+            sheet.paste(frame, (label + column * (width + GAP), top))
     sheet.save(out)
     return out
 
