@@ -12,6 +12,8 @@ from itertools import groupby, pairwise
 from study.orders import Plan
 from study.protocol import Part, Protocol
 
+DRAWN = 2000  # orders at most that are drawn to see how those of the planned participants are balanced
+
 
 @dataclass(frozen=True)
 class Balance:

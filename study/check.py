@@ -15,7 +15,7 @@ from stimuli.relations import in_short, relations_of
 from stimuli.robots import load_robot
 from stimuli.robots.model import Robot
 from stimuli.trajectory import Trajectory
-from study.balance import balance
+from study.balance import DRAWN, balance
 from study.orders import cycle, draw_plan
 from study.power import power
 from study.protocol import Protocol, Stimulus
@@ -27,7 +27,6 @@ from study.words import count, in_brief, listed, tested
 
 Verdict = Literal["good", "mind", "wrong"]
 WIDTH = 110  # of the screen
-DRAWN = 2000  # orders at most that are drawn and counted
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from study.balance import balance
+from study.balance import DRAWN, balance
 from study.orders import cycle, draw_plan
 from study.protocol import Part, Protocol
 from study.words import count, ordered
@@ -69,8 +69,10 @@ class Design:
 
 def design(protocol: Protocol) -> Design:
     """Read the design off a protocol; the balance is that of the planned participants."""
-    plans = [draw_plan(protocol, slot) for slot in range(protocol.participants.planned)]
-    balances = {found.part: str(found) for found in balance(protocol, plans)}
+    drawn = min(protocol.participants.planned, DRAWN)
+    plans = [draw_plan(protocol, slot) for slot in range(drawn)]
+    among = f"of the first {drawn}, " if drawn < protocol.participants.planned else ""
+    balances = {found.part: f"{among}{found}" for found in balance(protocol, plans)}
     videos, minutes = protocol.length
     return Design(
         study=protocol.study,

@@ -23,3 +23,9 @@ def test_the_papers_design_is_read_off_its_protocol():
 def test_groups_and_conditions_are_said():
     assert "(between participants, 1 page)" in str(design(load_protocol(PROTOCOLS / "godspeed")))
     assert "experience is sometimes or often" in str(design(load_protocol(PROTOCOLS / "online")))
+
+
+def test_of_very_many_participants_the_first_orders_are_counted(monkeypatch):
+    monkeypatch.setattr("study.design.DRAWN", 6)
+    (part, *_) = design(load_protocol(PROTOCOLS / "template")).parts
+    assert part.balance == "of the first 6, in each position 2 times, after each other 2 times"
