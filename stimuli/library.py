@@ -58,7 +58,8 @@ def render_missing(
 
     def listed() -> Manifest:
         return Manifest(
-            stimuli={s.id: _as(s, whole[s.sha256]) for s in specs if s.sha256 in whole}, framing=framing
+            stimuli={s.id: _as(s, whole[s.sha256], folder) for s in specs if s.sha256 in whole},
+            framing=framing,
         )
 
     done = 0
@@ -124,6 +125,10 @@ def _closest_camera(specs: Sequence[StimulusSpec], robot: Robot) -> str:
     return closest_camera(robot, motions, width=specs[0].video.width, height=specs[0].video.height)
 
 
-def _as(spec: StimulusSpec, clip: Clip) -> Clip:
-    """The clip as this stimulus': another of the same picture may have been rendered."""
-    return clip.model_copy(update={"spec": spec.model_dump(mode="json")})
+def _as(spec: StimulusSpec, clip: Clip, folder: Path) -> Clip:
+    """The clip as this stimulus': another of the same picture may have been rendered.
+
+    Its gesture's path is from the folder, so that it is the same from wherever the command was called.
+    """
+    gesture = Path(os.path.relpath(spec.gesture, folder)).as_posix()
+    return clip.model_copy(update={"spec": spec.model_dump(mode="json") | {"gesture": gesture}})
