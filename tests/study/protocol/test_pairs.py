@@ -141,7 +141,7 @@ def test_power_is_that_of_the_binomial_test(paired):
             "test: paired t, compare: [lively, calm]",
             "no test of pairs",
         ),
-        ("compare: [lively, calm]", "compare: [lively, lively]", "names no pair of liked"),
+        ("compare: [lively, calm]", "compare: [lively, lively]", "compares lively with itself"),
         ("test: binomial, compare: [high, low]", "test: binomial, of: target", "bear the names"),
         ("compare: [high, low]", "compare: [high, low], outcome: yes", "the first of `compare`"),
         (
