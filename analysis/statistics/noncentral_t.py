@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import exp, isnan, lgamma, log, pi, sqrt
+from math import exp, inf, isnan, lgamma, log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ def ncp_interval(t: float, df: float, level: float = 0.95) -> tuple[float, float
 
 
 def _ncp_at(t: float, df: float, probability: float) -> float | None:
-    """The noncentrality at which P(T ≤ t) is `probability`, by bisection (the function falls with ncp).
+    """The noncentrality at which P(T ≤ t) is `probability`: secants, or halves where one would lead astray.
 
     With T = (Z + ncp) / S this is P(tS − Z ≥ ncp), so half of either tail for S and for Z brackets it. Far
     out Z no longer counts: leaving it out changes ncp by a share of about 10 / t².
@@ -36,20 +36,29 @@ def _ncp_at(t: float, df: float, probability: float) -> float | None:
     def exceeded(tail: float) -> float:
         return t * sqrt(float(chdtri(df, tail)) / df)
 
+    def excess(ncp: float) -> float:
+        return float(nctdtr(df, ncp, t)) - probability
+
     if t > FAR:
         return exceeded(probability)
     rest = 1 - probability
     low = exceeded(1 - rest / 2) + float(ndtri(rest / 2))
     high = exceeded(probability / 2) - float(ndtri(probability / 2))
+    last, at = low, high
+    last_excess, at_excess = excess(low), excess(high)
+    enough = 1e-13 * max(1.0, abs(high))
     for _ in range(100):
-        middle = (low + high) / 2
-        value = float(nctdtr(df, middle, t))
-        if isnan(value):
-            return None
-        low, high = (middle, high) if value > probability else (low, middle)
-        if high - low <= 1e-13 * max(1.0, abs(high)):
+        if at_excess == 0 or abs(at - last) <= enough:
             break
-    return middle
+        slope = (at_excess - last_excess) / (at - last)
+        guess = at - at_excess / slope if slope < 0 else inf
+        if not low - enough <= guess <= high + enough:
+            guess = (low + high) / 2
+        last, last_excess, at, at_excess = at, at_excess, guess, excess(guess)
+        if isnan(at_excess):
+            return None
+        low, high = (at, high) if at_excess > 0 else (low, at)
+    return at
 
 
 @cache

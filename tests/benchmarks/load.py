@@ -29,6 +29,7 @@ class Browser:
         self._headers = headers or {}
         self._cookies: dict[str, str] = {}
         self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
+        self._fresh = True  # the connection, made for the request under way
         self.path = "/"
 
     async def get(self, path: str) -> Answer:
@@ -59,15 +60,26 @@ class Browser:
         self, method: str, path: str, body: bytes = b"", headers: dict[str, str] | None = None
     ) -> Answer:
         self.path = path
-        if self._streams is None or self._streams[0].at_eof():  # servers hang up on who is quiet
-            host, _, port = self._host.partition(":")
-            self._streams = await asyncio.open_connection(host, int(port), limit=2**20)
-        reader, writer = self._streams
         fields = {"Host": self._host, "Content-Length": str(len(body))} | self._headers | (headers or {})
         if self._cookies:
             fields["Cookie"] = "; ".join(f"{name}={value}" for name, value in self._cookies.items())
         lines = "".join(f"{name}: {value}\r\n" for name, value in fields.items())
-        writer.write(f"{method} {path} HTTP/1.1\r\n{lines}\r\n".encode() + body)
+        request = f"{method} {path} HTTP/1.1\r\n{lines}\r\n".encode() + body
+        try:
+            return await self._exchange(request)
+        except (ConnectionError, asyncio.IncompleteReadError):
+            if self._fresh:
+                raise
+            self._streams = None  # servers hang up on who is quiet, and browsers then ask again
+            return await self._exchange(request)
+
+    async def _exchange(self, request: bytes) -> Answer:
+        self._fresh = self._streams is None
+        if self._streams is None:
+            host, _, port = self._host.partition(":")
+            self._streams = await asyncio.open_connection(host, int(port), limit=2**20)
+        reader, writer = self._streams
+        writer.write(request)
         return await self._receive(reader)
 
     async def _receive(self, reader: asyncio.StreamReader) -> Answer:
@@ -156,7 +168,7 @@ async def crowd(
     everybody = asyncio.ensure_future(tally.door.wait())
     await asyncio.wait([everybody, *visits], return_when=asyncio.FIRST_COMPLETED)
     for one in visits:
-        if one.done():  # without ever coming in
+        if one.done() and not everybody.done():  # without ever coming in
             one.result()
     once_in()
     start, own = time.perf_counter(), time.process_time()
