@@ -59,9 +59,11 @@ def restore(backup: Path, database: Path) -> None:
         raise InputError(f"{backup}: is damaged ({verdict}). Take an older one.")
     database.parent.mkdir(parents=True, exist_ok=True)  # on a new machine there is none yet
     with held(database):
-        gone = withdrawals(database)
-        copy_database(backup, database)
-        delete(database, gone)
+        try:
+            copy_database(backup, database, without=withdrawals(database))
+        except (OSError, sqlite3.Error) as err:
+            message = f"{database}: could not be replaced ({err}) and is as it was. Is the disk full?"
+            raise InputError(message) from err
 
 
 def withdrawals(database: Path) -> list[Withdrawal]:
@@ -86,13 +88,21 @@ def delete(database: Path, gone: Sequence[Withdrawal]) -> None:
                 db.execute("INSERT INTO withdrawals (participant, at, responses) VALUES (?, ?, ?)", values)
 
 
-def copy_database(source: Path, target: Path) -> None:
-    """Copy a database page by page into a new file or over another; the source may be in use."""
+def copy_database(source: Path, target: Path, *, without: Sequence[Withdrawal] = ()) -> None:
+    """Copy a database page by page into a new file or over another; the source may be in use.
+
+    Who is `without` is not in the copy. It is made beside the target and takes its place when it is whole.
+    """
     whole = target.with_suffix(f"{target.suffix}.part")
     whole.unlink(missing_ok=True)
-    with closing(sqlite3.connect(source)) as live, closing(sqlite3.connect(whole)) as copy:
-        live.backup(copy)
-        copy.execute("PRAGMA journal_mode=DELETE")
+    try:
+        with closing(sqlite3.connect(source)) as live, closing(sqlite3.connect(whole)) as copy:
+            live.backup(copy)
+            copy.execute("PRAGMA journal_mode=DELETE")
+        delete(whole, without)
+    except (OSError, sqlite3.Error):
+        whole.unlink(missing_ok=True)  # it would take what room there is
+        raise
     for leftover in ("-wal", "-shm"):
         target.with_name(target.name + leftover).unlink(missing_ok=True)
     whole.replace(target)

@@ -1,8 +1,12 @@
 from __future__ import annotations
 
 import os
+import resource
+import sqlite3
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -129,6 +133,34 @@ def test_a_database_that_is_being_served_is_not_replaced(tmp_path: Path) -> None
         restore(copy, file)
     store.close()
     restore(copy, file)
+
+
+@contextmanager
+def full_disk() -> Iterator[None]:
+    """As if there were hardly any room: no file may have more than a page for as long as the block lasts."""
+    most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, most[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, most)
+
+
+def test_where_there_is_no_room_nothing_is_restored_and_nothing_is_left_half_done(tmp_path: Path) -> None:
+    file = tmp_path / "study.db"
+    store = open_store(f"sqlite:///{file}")
+    invite(store, 2)
+    copy = back_up(file, tmp_path / "backups", now=NOON)
+    invite(store, 1)
+    store.close()
+    with full_disk():
+        with pytest.raises(InputError, match=r"study\.db: could not be replaced \(.*\) and is as it was"):
+            restore(copy, file)
+        with pytest.raises(sqlite3.Error):
+            back_up(file, tmp_path / "backups", now=NOON + timedelta(hours=1))
+    assert len(names(file)) == 3
+    assert not list(tmp_path.rglob("*.part"))
+    assert list((tmp_path / "backups").glob("*.db")) == [copy]
 
 
 def test_a_timer_backs_up_and_once_more_at_the_end() -> None:
