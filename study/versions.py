@@ -62,10 +62,10 @@ def keep_version(protocol: Protocol, manifest: Manifest, data: Path) -> None:
 
 
 def copy_protocol(protocol: Protocol, folder: Path) -> None:
-    """Copy a protocol and the files it names into a folder."""
+    """Copy a protocol and the files it is made of into a folder, as far as they are there."""
     folder.mkdir(parents=True, exist_ok=True)
     for name in protocol.files:
-        if not Path(name).is_absolute() and (protocol.folder / name).is_file():
+        if (protocol.folder / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(protocol.folder / name, folder / name)
     shutil.copyfile(protocol.path, folder / "protocol.yaml")

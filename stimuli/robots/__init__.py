@@ -13,6 +13,7 @@ from pathlib import Path
 from stimuli.backends import backends
 from stimuli.errors import InputError, nearest
 from stimuli.robots.model import Robot
+from stimuli.robots.robot_file import ROBOT_FILES
 
 ROBOTS: tuple[str, ...] = tuple(
     sorted(
@@ -29,7 +30,7 @@ def load_robot(name_or_path: str, base: Path) -> Robot:
         robot: Robot = import_module(f"{__name__}.{name_or_path}").load()
         return robot
     backends(os.environ)  # a wrong one is said before MuJoCo is imported, which would fail
-    if name_or_path.endswith((".yaml", ".yml")):
+    if name_or_path.endswith(ROBOT_FILES):
         from stimuli.robots.files import read_robot
 
         return read_robot(base / name_or_path)

@@ -27,7 +27,7 @@ KINDS: Mapping[int, JointKind] = {
     int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
 }
 HALF_TURNS = (-np.pi, np.pi)  # of a hinge that turns without end
-CODE = tuple(f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "mimics", "meshes"))
+CODE = tuple(f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "packages", "mimics", "meshes"))
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,7 @@ from stimuli.robots.model import Relation, View
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
+ROBOT_FILES = (".yaml", ".yml")  # what such a file's name ends in
 Location = tuple[str | int, ...]
 Place = Callable[[Location], str]  # file, line and field of an entry
 Colour = Annotated[str, Field(pattern="^#[0-9a-fA-F]{6}$")]

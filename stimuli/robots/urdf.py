@@ -13,9 +13,8 @@ from stimuli.errors import InputError
 from stimuli.lines import read_xml
 from stimuli.robots.meshes import read_pieces
 from stimuli.robots.mimics import Mimic, by_their_leaders
+from stimuli.robots.packages import PACKAGE, folders_of, package_folders
 from stimuli.robots.urdf_checks import Places, check_urdf
-
-PACKAGE = "package://"
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
         raise InputError(f"{source}: cannot be read as a URDF: {error}") from error
     places = Places(source, lines)
     check_urdf(root, places)
-    folders = [*search, *source.resolve().parents]
+    folders = folders_of(source, search)
     if root.find("link/visual") is not None:
         _keep_only_what_is_seen(root)
     meshes: dict[str, bytes] = {}
@@ -62,15 +61,14 @@ def find_mesh(filename: str, beside: Path, folders: Sequence[Path], place: str) 
         if not path.is_file():
             raise InputError(f"{place}: the mesh {filename!r} is not there: {path}")
         return path
-    package, _, rest = filename.removeprefix(PACKAGE).partition("/")
-    roots = [folder if folder.name == package else folder / package for folder in folders]
+    roots, rest = package_folders(filename, folders)
     for root in roots:
         if (root / rest).is_file():
             return root / rest
     present = [root for root in roots if root.is_dir()]
     if present:
         raise InputError(f"{place}: the mesh {filename!r} is not in the package: {present[0] / rest}")
-    looked = ", ".join(map(str, folders))
+    package, looked = roots[0].name, ", ".join(map(str, folders))
     raise InputError(
         f"{place}: {filename!r}: there is no folder {package!r} in {looked}. Name the folder it lies in: "
         "`search: [PATH]` in the robot's YAML file."

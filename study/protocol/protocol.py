@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import os
 import re
 from collections.abc import Mapping
 from functools import cached_property
@@ -15,6 +16,8 @@ from pydantic import BeforeValidator, Field, PrivateAttr, field_validator, model
 
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
+from stimuli.robots.belongings import files_of_robot
+from stimuli.robots.robot_file import ROBOT_FILES
 from stimuli.spec import Camera
 from study.protocol.amendments import Amendment
 from study.protocol.modulations import read_levels, read_modulations
@@ -292,13 +295,21 @@ class Protocol(Written):
         """Whether the protocol of this hash is this one, or one that a declared amendment replaces."""
         return sha256 == self.sha256 or sha256.startswith(tuple(a.replaces for a in self.amendments))
 
-    @property
+    @cached_property
     def files(self) -> tuple[str, ...]:
-        """The files that the YAML names: gestures, and texts that are not written in it."""
+        """The files the study is made of beside its YAML: gestures, texts in files, and robots of its own."""
         texts = [text for _, text in self.written_texts if text]
         texts += [part.intro for part in self.written_parts.values() if part.intro]
         named = [text.root[language] for text in texts for language in files_named_in(text, self.folder)]
-        return (*(str(gesture.file) for gesture in self.gestures.values()), *named)
+        robots = [file for robot in self.robots for file in self.files_of_robot(robot)]
+        return (*(str(gesture.file) for gesture in self.gestures.values()), *named, *dict.fromkeys(robots))
+
+    def files_of_robot(self, robot: str) -> tuple[str, ...]:
+        """The files of a robot that the study brings: its YAML, its model and what that names."""
+        if not robot.endswith(ROBOT_FILES):
+            return ()
+        found = files_of_robot(self.folder / robot)
+        return tuple(Path(os.path.relpath(file, self.folder)).as_posix() for file in found)
 
     @cached_property
     def sha256(self) -> str:

@@ -172,14 +172,19 @@ def _attention(protocol: Protocol) -> Iterator[Contradiction]:
 
 
 def _files(protocol: Protocol) -> Iterator[Contradiction]:
-    """Gestures that would be missing from the copy kept of what participants began with."""
+    """Gestures and robots that would be missing from the copy kept of what participants began with."""
     for name, gesture in protocol.gestures.items():
-        if _leaves_the_folder(gesture.file):
+        if _leaves_the_folder(str(gesture.file)):
             yield ("gestures", name), LEAVES
+    for robot in protocol.robots:
+        outside = [file for file in protocol.files_of_robot(robot) if _leaves_the_folder(file)]
+        if outside:
+            what = "" if _leaves_the_folder(robot) else f"needs {outside[0]}, which "
+            yield protocol.place_of_robot(robot), what + LEAVES
 
 
-def _leaves_the_folder(file: Path) -> bool:
-    return ".." in file.parts
+def _leaves_the_folder(name: str) -> bool:
+    return Path(name).is_absolute() or ".." in Path(name).parts
 
 
 def _texts(protocol: Protocol) -> Iterator[Contradiction]:
@@ -194,7 +199,7 @@ def _texts(protocol: Protocol) -> Iterator[Contradiction]:
     for here, text in texts:
         for language, file in files_named_in(text, protocol.folder).items():
             place: Location = (*here, language) if language else here
-            if _leaves_the_folder(file.relative_to(protocol.folder)):
+            if _leaves_the_folder(text.root[language]):
                 yield place, LEAVES
                 continue
             try:

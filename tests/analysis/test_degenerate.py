@@ -146,7 +146,7 @@ def test_who_fails_attention_checks_is_left_out_and_the_report_says_what_changed
     written = written.replace(
         "participants: {planned: 36}",
         "participants: {planned: 36, exclude: {failed_attention: 2, incomplete: false}}",
-    ).replace("gestures/", f"{PAPER}/gestures/")
+    )
     (tmp_path / "protocol.yaml").write_text(written, encoding="utf-8")
     protocol = load_protocol(tmp_path)
     checks = [(f"P{p:02}", s, "attention", "yes_" if p == 3 or (p == 1 and s == "joy") else "no_")

@@ -17,34 +17,33 @@ from analysis.plan import carry_out
 from analysis.results import Provenance, Results
 from analysis.web import html
 from study.protocol import Protocol, load_protocol
-from tests.analysis.conftest import PAPER
 
-PROTOCOL = f"""
+PROTOCOL = """
 study: kinds
 title: Every kind
 contact: a@example.org
 robot: pepper
 seed: 1
-gestures: {{wave: {PAPER}/gestures/wave.yaml}}
-modulations: {{calm: {{time: 1.3}}, lively: {{time: 0.85}}}}
+gestures: {wave: wave.yaml}
+modulations: {calm: {time: 1.3}, lively: {time: 0.85}}
 parts:
   impression:
     title: Every kind of question
-    stimuli: {{gesture: wave, modulations: [calm, lively]}}
+    stimuli: {gesture: wave, modulations: [calm, lively]}
     ask:
-      - rate: {{set: rosas}}
-      - differential: {{text: It moves, pairs: {{speed: [slowly, fast]}}}}
-      - slider: {{text: It is, items: {{hurried: in a hurry}}, ends: [not at all, extremely]}}
-      - rank: {{text: What matters?, items: {{pace: speed, extent: size, ease: smoothness}}}}
-      - select: {{item: seen, text: Seen before?, options: ["yes", "no", unsure]}}
-      - text: {{item: remark, text: Anything else?, optional: true}}
-      - number: {{item: metres, text: How far away?, least: 0, most: 20}}
+      - rate: {set: rosas}
+      - differential: {text: It moves, pairs: {speed: [slowly, fast]}}
+      - slider: {text: It is, items: {hurried: in a hurry}, ends: [not at all, extremely]}
+      - rank: {text: What matters?, items: {pace: speed, extent: size, ease: smoothness}}
+      - select: {item: seen, text: Seen before?, options: ["yes", "no", unsure]}
+      - text: {item: remark, text: Anything else?, optional: true}
+      - number: {item: metres, text: How far away?, least: 0, most: 20}
 demographics:
-  - number: {{item: age, text: How old are you?, least: 18, most: 99}}
-  - select: {{item: gender, text: You are, options: [female, male, other]}}
-participants: {{planned: 8}}
+  - number: {item: age, text: How old are you?, least: 18, most: 99}
+  - select: {item: gender, text: You are, options: [female, male, other]}
+participants: {planned: 8}
 analysis:
-  H1: {{part: impression, item: warmth, test: paired t, compare: [lively, calm], alternative: two-sided}}
+  H1: {part: impression, item: warmth, test: paired t, compare: [lively, calm], alternative: two-sided}
 """
 
 

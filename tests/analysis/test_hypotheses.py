@@ -34,7 +34,7 @@ MORE = """
 def with_hypotheses(folder: Path, more: str) -> Protocol:
     """The paper's study with more hypotheses."""
     path = folder / "protocol.yaml"
-    text = (PAPER / "protocol.yaml").read_text(encoding="utf-8").replace("gestures/", f"{PAPER}/gestures/")
+    text = (PAPER / "protocol.yaml").read_text(encoding="utf-8")
     path.write_text(text.rstrip() + more, encoding="utf-8")
     return load_protocol(path)
 

@@ -57,7 +57,7 @@ SOSCI = f"""
 
 def saying(folder: Path, said: str) -> Protocol:
     """The paper's study with what a file calls its names."""
-    text = (PAPER / "protocol.yaml").read_text(encoding="utf-8").replace("gestures/", f"{PAPER}/gestures/")
+    text = (PAPER / "protocol.yaml").read_text(encoding="utf-8")
     path = folder / "protocol.yaml"
     path.write_text(text.rstrip() + said, encoding="utf-8")
     return load_protocol(path)

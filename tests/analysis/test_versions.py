@@ -19,7 +19,7 @@ AMENDED = "\namendments:\n  - {date: 2026-11-22, reason: A misspelt word, replac
 @pytest.fixture
 def rows(tmp_path: Path) -> Path:
     """A file with a row of an earlier version; the protocol is beside it."""
-    text = (PAPER / "protocol.yaml").read_text(encoding="utf-8").replace("gestures/", f"{PAPER}/gestures/")
+    text = (PAPER / "protocol.yaml").read_text(encoding="utf-8")
     (tmp_path / "protocol.yaml").write_text(text, encoding="utf-8")
     path = tmp_path / "responses.csv"
     path.write_text(f"participant,protocol_sha256\na,{load_protocol(tmp_path).sha256}\nb,{EARLIER}\n")

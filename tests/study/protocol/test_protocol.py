@@ -242,15 +242,6 @@ def test_the_shipped_consent_names_who_is_responsible_and_the_approval_where_the
         assert "hri-lab@example.org" in open_.in_(language)
 
 
-def test_files_outside_the_folder_are_refused_as_no_copy_of_the_study_would_have_them(load, written):
-    written["gestures"]["wave"] = "../shared/wave.yaml"
-    written["texts"] = {"consent": {"en": "../shared/consent.md", "de": "Ja"}}
-    with pytest.raises(ProtocolError) as refused:
-        load(written)
-    assert [p.field for p in refused.value.problems] == ["gestures.wave", "texts.consent.en"]
-    assert all("leaves the study's folder; copy it there" in p.message for p in refused.value.problems)
-
-
 def test_a_camera_is_one_of_the_scenes(load, written):
     written["video"]["camera"] = "fullbody"
     with pytest.raises(
