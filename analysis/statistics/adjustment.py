@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from analysis.statistics.samples import numbers
 from stimuli.errors import nearest
 
 Correction = Literal["holm", "bonferroni", "benjamini-hochberg", "none"]
@@ -22,10 +23,10 @@ def adjust(family: Mapping[str, float | None], correction: Correction) -> dict[s
     """
     if correction not in ADJUSTMENTS:
         raise ValueError(f"correction {correction!r}: {nearest(correction, ADJUSTMENTS)}")
-    names = [name for name, p in family.items() if p is not None]
-    values = np.array([family[name] for name in names], dtype=float)
-    adjusted = dict(zip(names, ADJUSTMENTS[correction](values, len(family)).tolist(), strict=True))
-    return {name: adjusted.get(name) for name in family}
+    p = numbers(np.array([*family.values()], dtype=object))
+    there = ~np.isnan(p)
+    adjusted = iter(ADJUSTMENTS[correction](p[there], p.size).tolist())
+    return {name: next(adjusted) if known else None for name, known in zip(family, there, strict=True)}
 
 
 def holm(p: Vector, m: int) -> Vector:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from analysis.statistics.samples import FloatArray, numbers
 
 
 def refuse_impossible_count(k: int, n: int) -> None:
@@ -22,7 +21,7 @@ def refuse_other_than_yes_and_no(answers: FloatArray) -> None:
 
 def as_table(values: ArrayLike, shape: str) -> FloatArray:
     """The values as an array of that shape, (rows, columns); ValueError where they have no two dimensions."""
-    table: FloatArray = np.asarray(values, dtype=float)
+    table = numbers(values)
     if table.ndim != 2:
         raise ValueError(f"needs a table {shape}; this has the shape {table.shape}")
     return table

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from analysis.statistics.samples import numbers
+
 WIDEST = 1000  # points of a scale
 
 
@@ -29,7 +31,7 @@ def label_permutation(ratings: ArrayLike, target: int) -> LabelPermutation:
     >>> round(label_permutation([[5, 2, 1], [4, 4, 2], [5, 1, 3]], target=0).p, 4)
     0.0741
     """
-    table = np.asarray(ratings, dtype=float)
+    table = numbers(ratings)
     table = table[~np.isnan(table).any(axis=1)]
     n, k = table.shape
     if n == 0:

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import fdtrc, stdtr
 
-FloatArray = NDArray[np.float64]
+from analysis.statistics.samples import FloatArray, numbers
+
 NOTHING = -1  # seen before the first
 
 
@@ -91,7 +92,7 @@ def carry_over(scores: ArrayLike, places: ArrayLike) -> CarryOver:
 
 def _long(scores: ArrayLike, places: ArrayLike) -> tuple[FloatArray, ...]:
     """Score, participant, stimulus, place and previous stimulus of every answer with a known place."""
-    score, place = np.asarray(scores, dtype=float), np.asarray(places, dtype=float)
+    score, place = numbers(scores), numbers(places)
     order: NDArray[np.int64] = np.argsort(place, axis=1)  # places that are missing come last
     before: NDArray[np.int64] = np.full(score.shape, NOTHING)
     np.put_along_axis(before, order[:, 1:], order[:, :-1], axis=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,9 +12,27 @@ FloatArray = NDArray[np.float64]
 ROUNDING = 1e-12  # of the largest value: less of a difference is none
 
 
+def numbers(values: ArrayLike) -> FloatArray:
+    """The values as floats; pandas.NA is NaN."""
+    try:
+        return np.asarray(values, dtype=float)
+    except TypeError:
+        objects = np.asarray(values, dtype=object)
+        return np.where(missing(objects), np.nan, objects).astype(float)
+
+
+def missing(values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Where there is no value: NaN, and among objects also None and pandas.NA."""
+    if values.dtype != object:
+        return np.not_equal(values, values)
+    import pandas as pd
+
+    return np.asarray(pd.isna(values))
+
+
 def observed(values: ArrayLike) -> FloatArray:
     """The values that are there: a flat float array without NaN."""
-    flat: FloatArray = np.asarray(values, dtype=float).ravel()
+    flat = numbers(values).ravel()
     present: FloatArray = flat[~np.isnan(flat)]
     return _finite(present)
 
@@ -26,7 +45,7 @@ def _finite(values: FloatArray) -> FloatArray:
 
 def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Values of two aligned samples where neither is missing; position i of both is one participant."""
-    a, b = np.asarray(first, dtype=float).ravel(), np.asarray(second, dtype=float).ravel()
+    a, b = numbers(first).ravel(), numbers(second).ravel()
     if a.shape != b.shape:
         raise ValueError(f"paired samples need equal lengths, got {a.size} and {b.size}")
     both = ~(np.isnan(a) | np.isnan(b))
@@ -36,15 +55,16 @@ def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, Flo
 def observed_rows(
     values: ArrayLike, x: ArrayLike, participants: ArrayLike
 ) -> tuple[FloatArray, FloatArray, NDArray[np.intp]]:
-    """Answers, their conditions and their participants, numbered from 0; without rows that miss a number."""
-    answers, conditions = np.asarray(values, dtype=float).ravel(), np.asarray(x, dtype=float).ravel()
+    """Answers, their conditions and their participants, numbered from 0; without rows that miss any."""
+    answers, conditions = numbers(values).ravel(), numbers(x).ravel()
     if not answers.size == conditions.size == np.size(participants):
         raise ValueError(
             "columns need equal lengths, got "
             f"{answers.size} answers, {conditions.size} conditions, {np.size(participants)} participants"
         )
-    there = ~(np.isnan(answers) | np.isnan(conditions))
-    _, people = np.unique(np.asarray(participants).ravel()[there], return_inverse=True)
+    names = np.asarray(participants).ravel()
+    there = ~(np.isnan(answers) | np.isnan(conditions) | missing(names))
+    _, people = np.unique(names[there], return_inverse=True)
     return _finite(answers[there]), conditions[there], people
 
 

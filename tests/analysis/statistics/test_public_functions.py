@@ -8,6 +8,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
+import pandas
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -114,16 +115,45 @@ def test_a_result_is_finite_or_none_and_never_impossible(name: str, seed: int) -
             assert 0 < value <= 1, field
 
 
+class WithNA(Drawn):
+    """The same columns as pandas has them: objects, and NA where nothing was answered."""
+
+    def column(self, n: int | None = None) -> np.ndarray:
+        return as_objects(super().column(n))
+
+    def choices(self) -> np.ndarray:
+        return as_objects(super().choices())
+
+    def rows(self, *options: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        answers, conditions, people = super().rows(*options)
+        return as_objects(answers), as_objects(conditions), as_objects(people)
+
+    def family(self) -> dict[str, float | None]:
+        return {name: pandas.NA if p is None else p for name, p in super().family().items()}
+
+
+def as_objects(column: np.ndarray) -> np.ndarray:
+    objects = column.astype(object)
+    objects[np.isnan(column)] = pandas.NA
+    return objects
+
+
+@pytest.mark.parametrize("name", analysis.__all__)
+@given(seed=st.integers(0, 2**32))
+def test_na_is_missing_as_nan_is(name: str, seed: int) -> None:
+    assert repr(CALLS[name](WithNA(seed))) == repr(CALLS[name](Drawn(seed)))
+
+
 MODELS = {"gee_logistic": (0, 1), "logistic_mixed": (0, 1), "cumulative_link_mixed": (1, 2, 3)}
 
 
 @pytest.mark.parametrize("name", MODELS)
-def test_rows_without_an_answer_are_left_out_of_models(name: str) -> None:
+def test_rows_without_an_answer_or_a_participant_are_left_out_of_models(name: str) -> None:
     rng = np.random.default_rng(3)
-    people = np.repeat(np.arange(12), 4)
+    people = np.repeat([f"P{person}" for person in range(12)], 4).astype(object)
     answers, conditions = rng.choice(MODELS[name], 48).astype(float), np.tile([0.0, 1.0], 24)
-    answers[[5, 20]] = nan
-    there = ~np.isnan(answers)
+    answers[5], people[20] = nan, None
+    there = ~(np.isnan(answers) | (people == None))  # noqa: E711
     fit = getattr(analysis, name)
     found = fit(answers, conditions, people)
     assert found == fit(answers[there], conditions[there], people[there])
