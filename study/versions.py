@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Collection, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
 from stimuli.manifest import Manifest
 from study.protocol import Problem, Protocol, ProtocolError, load_protocol
 from study.protocol.amendments import SHORT, as_replaced
+from study.storage import open_store
 
 FOLDER = "versions"
 
@@ -47,6 +49,14 @@ def refuse_undeclared(protocol: Protocol, known_hashes: Collection[str]) -> None
     ]
     if problems:
         raise ProtocolError(problems)
+
+
+def refuse_if_begun_otherwise(protocol: Protocol, data: Path) -> None:
+    """The same, of the participants whose answers are in a folder; refused too while it is being served."""
+    file = data / "study.db"
+    if file.exists():
+        with closing(open_store(f"sqlite:///{file}")) as store, store.held():
+            refuse_undeclared(protocol, store.protocol_hashes())
 
 
 def keep_version(protocol: Protocol, manifest: Manifest, data: Path) -> None:

@@ -41,7 +41,10 @@ def run(
     door: DoorOption = "open",
 ) -> None:
     """Render what is missing, then serve the study."""
+    from study.versions import refuse_if_begun_otherwise
+
     protocol = load(path)
+    refuse_if_begun_otherwise(protocol, data or protocol.folder / "data")  # nothing is rendered for it
     folder = clips or protocol.folder / "stimuli"
     manifest = rendered(protocol, folder, workers)
     _serve(protocol, manifest, folder, data=data, host=host, port=port, door=door)

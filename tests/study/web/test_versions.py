@@ -17,7 +17,7 @@ from stimuli.manifest import Clip as Rendered
 from stimuli.manifest import Manifest
 from study.cli import app
 from study.export import rows
-from study.protocol import load_protocol
+from study.protocol import ProtocolError, load_protocol
 from study.simulation import PAGE
 from study.versions import FOLDER, earlier_versions, keep_version
 from study.web.app import create_app
@@ -182,6 +182,17 @@ def _exported_and_analysed(first: Site, amended: Site) -> None:
     assert asked[1] - asked[0] == {"pride", "remark"}
     results = json.loads((out / "results.json").read_text(encoding="utf-8"))
     assert results["participants"]["n"] == 2 and results["participants"]["excluded"] == []
+
+
+def test_an_undeclared_change_is_refused_before_anything_is_rendered(
+    begun: Visitor, first: Site, tmp_path: Path
+) -> None:
+    file = first.protocol.path
+    file.write_text(file.read_text(encoding="utf-8").replace("seed: 1", "seed: 2"), encoding="utf-8")
+    run = ["run", str(file), "--data", str(tmp_path / "data"), "--clips", str(tmp_path / "new clips")]
+    refused = CliRunner().invoke(app, run).exception
+    assert isinstance(refused, ProtocolError) and "has changed since participants took part" in str(refused)
+    assert not (tmp_path / "new clips").exists()
 
 
 def test_where_no_copy_is_kept_they_are_told_and_nothing_is_lost(begun: Visitor, amended: Site) -> None:
