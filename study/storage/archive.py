@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, cast
 
-from sqlalchemy import Connection, Engine, RowMapping, func, select
+from sqlalchemy import Connection, Engine, RowMapping, bindparam, func, select
 
 from study.participants import Contact, Kind, Participant
 from study.responses import Response, Submission
@@ -184,10 +184,12 @@ def _read_contact(row: RowMapping | None) -> Contact:
     return Contact() if row is None else Contact(row["note"], row["source"], row["external_id"])
 
 
+SESSION_OF = select(sessions).where(sessions.c.participant == bindparam("name"))
+
+
 def read_session(db: Connection, participant: str) -> Session | None:
     """The participant's session, if they have consented."""
-    query = select(sessions).where(sessions.c.participant == participant)
-    row = db.execute(query).mappings().first()
+    row = db.execute(SESSION_OF, {"name": participant}).mappings().first()
     return None if row is None else _read_session(row)
 
 

@@ -13,7 +13,7 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event, text
 from sqlalchemy.exc import OperationalError
 
 from stimuli.errors import InputError
-from study.storage.database import Database, holder
+from study.storage.database import Database, as_json, holder
 
 LOCK = 0x5354554459  # "STUDY"
 HOLDER = text(
@@ -29,6 +29,7 @@ def open_database(url: URL) -> Database:
             url.set(drivername="postgresql+psycopg"),
             pool_pre_ping=True,  # so that a server that was restarted is found again
             hide_parameters=True,  # errors are logged, answers are not
+            json_serializer=as_json,
         )
     except ModuleNotFoundError as err:
         message = "PostgreSQL needs psycopg: pip install 'expressive-motion-study[postgresql]'"

@@ -17,7 +17,7 @@ from sqlite3 import Connection as SQLiteConnection
 from sqlalchemy import URL, Connection, Engine, create_engine, event
 
 from stimuli.errors import InputError
-from study.storage.database import Database, holder
+from study.storage.database import Database, as_json, holder
 
 PRAGMAS = {
     "journal_mode": "WAL",
@@ -32,7 +32,11 @@ def open_database(url: URL) -> Database:
     """A database whose connections all have the pragmas above."""
     file = Path(url.database or "")
     file.parent.mkdir(parents=True, exist_ok=True)
-    engine = create_engine(url, hide_parameters=True)  # errors are logged, answers are not
+    engine = create_engine(
+        url,
+        hide_parameters=True,  # errors are logged, answers are not
+        json_serializer=as_json,
+    )
 
     @event.listens_for(engine, "connect")
     def configure(connection: SQLiteConnection, _: object) -> None:

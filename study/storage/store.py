@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from typing import Literal, cast, get_args
 from uuid import UUID
@@ -31,15 +31,16 @@ class Visit:
     """All that is known of somebody under way. The store keeps it up to date with what it writes."""
 
     participant: Participant
-    session: Session | None
-    answered: dict[str, UUID]  # steps already answered, and the submissions that answered them
-    given: dict[str, set[str]]  # their answers by item; practice does not count
-    shown: dict[str, datetime]  # when the server first handed out a page
-    active_at: datetime | None
+    session: Session | None = None
+    answered: dict[str, UUID] = field(default_factory=dict)  # steps, and the submissions that answered them
+    given: dict[str, set[str]] = field(default_factory=dict)  # answers by item; practice does not count
+    shown: dict[str, datetime] = field(default_factory=dict)  # when the server first handed out a page
+    answered_at: datetime | None = None  # the latest
 
     def shown_at(self, step: str) -> datetime | None:
         """When a page was first handed out; if that was not kept, it was after all earlier pages."""
-        return self.shown.get(step, self.active_at)
+        begun_at = self.session.begun_at if self.session else None
+        return self.shown.get(step, self.answered_at or begun_at)
 
 
 class Store(Archive):
@@ -106,31 +107,27 @@ class Store(Archive):
         comes back to such a session keeps it all the same.
         """
 
-        def job(transaction: Transaction) -> Session:
+        def job(transaction: Transaction) -> tuple[Session, bool]:
             db = transaction.db
             if (known := read_session(db, participant.name)) is not None:
-                return known
-            since = now - stale_after
-            answered = exists().where(
-                responses.c.participant == sessions.c.participant, responses.c.answered_at > since
-            )
-            holders = (
-                select(sessions.c.slot)
-                .join(participants, participants.c.name == sessions.c.participant)
-                .where(participants.c.kind == participant.kind)
-                .where(or_(sessions.c.completed_at.is_not(None), sessions.c.begun_at > since, answered))
-            )
-            session = draw(assign_slot(Counter(db.execute(holders).scalars())))
+                return known, False
+            taken = db.execute(HOLDERS, {"kind": participant.kind, "since": now - stale_after}).scalars()
+            session = draw(assign_slot(Counter(taken)))
             values = vars(session) | {
                 "plan": plan_json(session.plan),
                 "slot": session.plan.slot,
                 "seed": session.plan.seed,
                 "algorithm": session.plan.algorithm,
             }
-            db.execute(insert(sessions), values)
-            return session
+            db.execute(BEGIN, values)
+            return session, True
 
-        return self._writer.now(job, then=lambda _: self._visits.pop(participant.token_sha256, None))
+        def remember(begun: tuple[Session, bool]) -> None:
+            session, is_new = begun
+            if is_new:
+                self._visits[participant.token_sha256] = Visit(participant, session)
+
+        return self._writer.now(job, then=remember)[0]
 
     def remembered(self, token_sha256: str) -> Visit | None:
         """Whoever has the link of that token, if they are under way."""
@@ -171,9 +168,8 @@ class Store(Archive):
             answered = self._latest(visit).answered
             verdict = judge(submission.id, submission.step, pages=steps, answered=answered)
             if verdict is Verdict.STORE:
-                content = submission.model_dump(mode="json")
-                row = {name: content[name] for name in ("id", "step", "on_page_ms", "answers", "views")}
-                transaction.add(ANSWER, row | {"participant": name, "answered_at": now})
+                row = vars(submission) | {"id": str(submission.id), "participant": name, "answered_at": now}
+                transaction.add(ANSWER, row)
                 if next_step(steps, {*answered, submission.step}) is None:
                     transaction.add(COMPLETED, {"name": name, "now": now})
             return verdict
@@ -182,7 +178,7 @@ class Store(Archive):
             if verdict is Verdict.STORE:
                 latest = self._latest(visit)
                 latest.answered[submission.step] = submission.id
-                latest.active_at = now
+                latest.answered_at = now
                 for item, values in given_in([(submission.step, submission.values)]).items():
                     latest.given.setdefault(item, set()).update(values)
                 if next_step(steps, latest.answered) is None:
@@ -259,6 +255,27 @@ HAPPEN = insert(events)
 COMPLETED = (
     update(sessions).where(sessions.c.participant == bindparam("name")).values(completed_at=bindparam("now"))
 )
+BEGIN = insert(sessions)
+HOLDERS = (  # the places of sessions that are completed or active
+    select(sessions.c.slot)
+    .join(participants, participants.c.name == sessions.c.participant)
+    .where(participants.c.kind == bindparam("kind"))
+    .where(
+        or_(
+            sessions.c.completed_at.is_not(None),
+            sessions.c.begun_at > bindparam("since"),
+            exists().where(
+                responses.c.participant == sessions.c.participant,
+                responses.c.answered_at > bindparam("since"),
+            ),
+        )
+    )
+)
+WITH_TOKEN = select(participants).where(participants.c.token_sha256 == bindparam("token"))
+ANSWERED = select(responses.c.step, responses.c.id, responses.c.answers, responses.c.answered_at).where(
+    responses.c.participant == bindparam("name")
+)
+SHOWN = select(pages.c.step, pages.c.shown_at).where(pages.c.participant == bindparam("name"))
 
 
 def _add_participant(db: Connection, participant: Participant, contact: Contact | None) -> None:
@@ -268,22 +285,21 @@ def _add_participant(db: Connection, participant: Participant, contact: Contact 
 
 
 def _read_visit(db: Connection, token_sha256: str) -> Visit | None:
-    known = select(participants).where(participants.c.token_sha256 == token_sha256)
-    row = db.execute(known).mappings().first()
+    row = db.execute(WITH_TOKEN, {"token": token_sha256}).mappings().first()
     if row is None:
         return None
-    name = row["name"]
-    session = read_session(db, name)
-    columns = (responses.c.step, responses.c.id, responses.c.answers, responses.c.answered_at)
-    answered = db.execute(select(*columns).where(responses.c.participant == name)).all()
-    shown = select(pages.c.step, pages.c.shown_at).where(pages.c.participant == name)
+    participant = Participant(**row)
+    session = read_session(db, participant.name)
+    if session is None:
+        return Visit(participant)
+    answered = db.execute(ANSWERED, {"name": participant.name}).all()
     return Visit(
-        Participant(**row),
+        participant,
         session,
         answered={row.step: UUID(row.id) for row in answered},
         given=given_in((row.step, values_in(row.answers)) for row in answered),
-        shown={row.step: row.shown_at for row in db.execute(shown)},
-        active_at=max((row.answered_at for row in answered), default=session.begun_at if session else None),
+        shown={row.step: row.shown_at for row in db.execute(SHOWN, {"name": participant.name})},
+        answered_at=max((row.answered_at for row in answered), default=None),
     )
 
 

@@ -106,9 +106,13 @@ def _shared(app: FastAPI, language: str) -> dict[str, Any]:
     }
 
 
+def fill(app: FastAPI, template: str, *, language: str, **values: Any) -> str:
+    """A page as HTML."""
+    return _template(template).render(_shared(app, language) | values)
+
+
 def render(
     request: Request, template: str, *, language: str, status: int = 200, **values: Any
 ) -> HTMLResponse:
     """A page."""
-    content = _template(template).render(_shared(request.app, language) | values)
-    return HTMLResponse(content, status_code=status)
+    return HTMLResponse(fill(request.app, template, language=language, **values), status_code=status)

@@ -6,15 +6,15 @@ import asyncio
 import hashlib
 from collections.abc import Collection, Mapping
 from datetime import datetime, timedelta
-from functools import cache
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Form, Request
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.exceptions import HTTPException
 
-from study.orders import Shown, draw_plan
+from study.orders import draw_plan
 from study.participants import Participant, new_completion_code
 from study.questions import AnswerError, Question
 from study.responses import Submission, playback_fault
@@ -22,8 +22,9 @@ from study.sessions import Pages, Session, Step, Verdict, judge, next_step, plan
 from study.storage.store import Visit
 from study.web.language import load_language
 from study.web.limits import count_wrong_guess, limits_of, require, require_guesses_left
-from study.web.pages import render, url
-from study.web.site import Clip, Site, site_of
+from study.web.pages import render
+from study.web.site import Site, site_of
+from study.web.step_pages import asked, step_page
 from study.web.visitor import forget, has_token, language_of, participant_of, speaking, to, visit_of
 
 router = APIRouter()
@@ -49,22 +50,17 @@ def steps_of(site: Site, session: Session, given: Mapping[str, Collection[str]] 
 
 def questions_of(site: Site, step: Step) -> tuple[Question, ...]:
     """What is asked on a page."""
-    return tuple(question for question, _, _ in _asked(site, step))
-
-
-def _asked(site: Site, step: Step) -> list[Shown]:
-    """The questions of a page."""
-    if step.kind == "demographics":
-        return [(question, (), ()) for question in site.protocol.demographics]
-    if step.trial is None:
-        return []
-    return list(step.trial.asked(site.protocol.parts[step.trial.part]))
+    return tuple(question for question, _, _ in asked(site, step))
 
 
 # The session
 
 
-@router.get("/study", name="study")
+# The two addresses of every page are plain routes: FastAPI's way of taking a request apart costs as much as
+# all that is done here.
+
+
+@router.route("/study", name="study")
 async def study(request: Request) -> Response:
     """The page that is due, whatever was open before."""
     site, visit = site_of(request), await visit_of(request)
@@ -89,7 +85,7 @@ async def study(request: Request) -> Response:
         site.store.log("page_reopened", step.key, participant=visit.participant.name, now=now)
     else:
         site.store.show_page(visit, step.key, now=now)
-    return _page(request, begun, visit.participant, session, step=step, pages=pages)
+    return step_page(request.app, begun, visit.participant, session, step, pages)
 
 
 def _the_end(request: Request, participant: Participant, session: Session) -> Response:
@@ -166,9 +162,10 @@ def consent(request: Request, agreed: Annotated[str, Form()], language: Annotate
     return to(request, "study")
 
 
-@router.post("/study/answers", name="answers")
-async def answers(request: Request, submission: Submission) -> JSONResponse:
+@router.route("/study/answers", methods=["POST"], name="answers")
+async def answers(request: Request) -> JSONResponse:
     """Store an answered page. 200: it is on disk. 409: another page is due. 422: this cannot be an answer."""
+    submission = await _submission_in(request)
     site, visit = site_of(request), await visit_of(request)
     if visit is None or visit.session is None:
         return JSONResponse({"reason": "no session"}, 409)
@@ -191,6 +188,16 @@ async def answers(request: Request, submission: Submission) -> JSONResponse:
             await _close_when_complete(site, visit.participant, now)
     stored = verdict in {Verdict.STORE, Verdict.KNOWN}
     return JSONResponse({"reason": verdict.value}, 200 if stored else 409)
+
+
+async def _submission_in(request: Request) -> Submission:
+    content = await request.body()
+    if not request.headers.get("content-type", "").startswith("application/json"):  # as other sites' forms
+        raise RequestValidationError([{"loc": ("content-type",), "msg": "must be application/json"}])
+    try:
+        return Submission.model_validate_json(content)
+    except ValidationError as fault:
+        raise RequestValidationError(fault.errors()) from fault
 
 
 async def _close_when_complete(site: Site, participant: Participant, now: datetime) -> None:
@@ -255,86 +262,6 @@ def _withdrawn(request: Request, language: str) -> Response:
     return forget(answer)
 
 
-def _page(
-    request: Request,
-    site: Site,
-    participant: Participant,
-    session: Session,
-    *,
-    step: Step,
-    pages: tuple[Step, ...],
-) -> Response:
-    language = session.language
-    say = load_language(language).text
-    place = pages.index(step)
-    part = site.protocol.parts[step.part] if step.part else None
-    values: dict[str, Any] = {
-        "number": place + 1,
-        "total": len(pages),
-        "trial": step.trial,
-        "questions": _asked(site, step),
-        "heading": part.title.in_(language) if part else say("Before we start"),
-        "gate": "",
-        "instructions": "",
-    }
-    clips: dict[str, Clip] = {}
-    if step.trial:
-        clips = site.clips_on(step.trial)
-        described = site.protocol.video.description
-        values["description"] = (
-            described.in_(language) if described else say("A robot makes a gesture. The video has no sound.")
-        )
-        one = say("Watch the video to its end, then answer.")
-        values["gate"] = one if len(clips) == 1 else say("Watch both videos to their ends, then answer.")
-    elif step.kind == "instructions":
-        intro = part.intro if part else site.protocol.texts.practice
-        values["instructions"] = intro.in_(language)
-    ahead = pages[place + 1].trial if place + 1 < len(pages) else None
-    facts = {
-        "participant": participant.name,
-        "step": step.key,
-        "clips": [
-            {"role": role, "url": _address(request, clip), "size": clip.size} for role, clip in clips.items()
-        ],
-        "ahead": [_address(request, clip) for clip in site.clips_on(ahead).values()] if ahead else [],
-        "answer_url": url(request.app, "answers"),
-        "replays": site.protocol.video.replays,
-        "event_url": url(request.app, "events"),
-        "next_url": url(request.app, "study"),
-        "texts": page_texts(language),
-    }
-    template = f"{step.kind}.html"
-    return render(request, template, language=language, kind=participant.kind, page=facts, **values)
-
-
-@cache
-def page_texts(language: str) -> Mapping[str, str]:
-    """What the page's scripts say."""
-    say = load_language(language).text
-    return {name: say(english) for name, english in PAGE_TEXTS.items()}
-
-
-PAGE_TEXTS = {
-    "play": "Play",
-    "again": "Watch again",
-    "continue": "Continue the video",
-    "retry": "Try again",
-    "loading": "Loading …",
-    "waiting": "One moment, the video is loading …",
-    "watched": "Watched",
-    "incomplete": "The video was not played completely. Please watch it again.",
-    "press": "Please press the button again.",
-    "missing": "Please answer every question.",
-    "offline": "There is no connection at the moment. Your answer is kept on this device and will be sent as "
-    "soon as possible. Please leave this page open.",
-    "blocked": "Something between this device and the study refuses your answer. It is kept on this device "
-    "and sent again until it arrives. Please leave this page open and tell the experimenter.",
-    "last": "Watched as often as is possible here",
-    "failed": "The video could not be played. Please try again; if it keeps failing, tell the experimenter.",
-    "refused": "Your answer could not be stored. Please reload this page.",
-}
-
-
 def _fault(site: Site, visit: Visit, step: Step, submission: Submission, now: datetime) -> str | None:
     values = submission.values
     try:
@@ -354,7 +281,3 @@ def _fault(site: Site, visit: Visit, step: Step, submission: Submission, now: da
         elapsed_s=None if visit.participant.kind == "simulated" else elapsed_s,
         replays=site.protocol.video.replays,
     )
-
-
-def _address(request: Request, clip: Clip) -> str:
-    return url(request.app, "clip", name=clip.name)

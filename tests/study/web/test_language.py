@@ -11,7 +11,7 @@ from study.storage.store import Phase
 from study.web.language import CATALOGUES, load_language, preferred
 from study.web.overview import STATES, TROUBLES
 from study.web.pages import HERE
-from study.web.participant import PAGE_TEXTS
+from study.web.step_pages import PAGE_TEXTS
 
 SPOKEN = re.compile(r"""\b(?:_|say)\((?:"([^"]+)"|'([^']+)')\)""")
 
