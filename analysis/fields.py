@@ -59,11 +59,18 @@ def read_header(path: Path) -> list[str]:
         columns = next(filter(None, csv.reader(file, delimiter=delimiter(path))), [])
     if not columns:
         raise ResponsesError(f"{path}: is empty")
+    refuse_line_for_excel(path, columns[0])
     if any("\0" in column for column in columns):
         raise ResponsesError(f"{path}:1: holds a zero byte; save the file as CSV UTF-8")
     if twice := [column for column in columns if columns.count(column) > 1]:
         raise ResponsesError(f"{path}:1: column {twice[0]!r} stands twice")
     return columns
+
+
+def refuse_line_for_excel(path: Path, first: str) -> None:
+    """Raise ResponsesError where a file starts with the line that tells Excel what parts its columns."""
+    if first.lower().startswith("sep="):
+        raise ResponsesError(f"{path}:1: 'sep=' is a line for Excel, no header; delete it")
 
 
 def read_fields(path: Path, columns: int) -> Iterator[Fields]:

@@ -19,6 +19,7 @@ from decimal import Decimal, InvalidOperation
 from itertools import groupby
 from pathlib import Path
 
+from analysis.fields import refuse_line_for_excel
 from stimuli.errors import InputError
 
 DELIMITERS = ",;\t"
@@ -104,6 +105,7 @@ def _read(path: Path) -> tuple[list[str], list[Record]]:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: is not UTF-8; save the table as CSV UTF-8") from error
+    refuse_line_for_excel(path, text)
     lines = text.splitlines()
     delimiter = max(DELIMITERS, key=lines[0].count) if lines else ","
     reader = csv.reader(lines, delimiter=delimiter)

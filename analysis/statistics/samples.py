@@ -24,7 +24,7 @@ def numbers(values: ArrayLike) -> FloatArray:
 def missing(values: NDArray[Any]) -> NDArray[np.bool_]:
     """Where there is no value: NaN, and among objects also None and pandas.NA."""
     if values.dtype != object:
-        return np.not_equal(values, values)
+        return np.asarray(np.not_equal(values, values))
     import pandas as pd
 
     return np.asarray(pd.isna(values))

@@ -94,6 +94,7 @@ HEADER = "participant,stimulus,item,response\n"
      r"r.csv:4: second answer to \(P1, joy, joy\); the first is in line 2"),
     (HEADER + "P1\n", r"r.csv:2: has 1 value, but the header names 4 columns"),
     (HEADER + "P1,joy,joy,4,5\nP1,joy,joy,4\n", r"r.csv"),
+    ("sep=;\n" + HEADER.replace(",", ";"), r"r.csv:1: 'sep=' is a line for Excel"),
     (HEADER + ",joy,joy,4\n", r"r.csv:2: has no participant"),
     (HEADER + " ,joy,joy,4\n", r"r.csv:2: has no participant"),
 ])  # fmt: skip

@@ -148,6 +148,7 @@ def test_each_mean_is_of_the_participants_in_its_row(tmp_path: Path) -> None:
         ("a,b\nx,y\n", r"t\.csv: no column holds numbers to check"),
         ("a,b\n", r"t\.csv: holds no rows below its header"),
         ("", r"t\.csv: holds no rows below its header"),
+        ("sep=,\na,b\nx,0.5\n", r"t\.csv:1: 'sep=' is a line for Excel"),
         (
             "clip,yes,no\na,0.3,0.7\nb,0.3,O.7\nc,0.3,0.7\n",
             r"t\.csv:3: column 'no' holds numbers, but 'O\.7'",
