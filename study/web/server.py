@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import gc
-import shlex
 import signal
 import socket
 import threading
@@ -20,17 +19,16 @@ import uvicorn
 from fastapi import FastAPI
 
 from stimuli.errors import InputError
-from stimuli.manifest import sha256_of
 from study.participants import Kind
 from study.storage import Store, open_store
 from study.storage.backups import BackupTimer, back_up
 from study.versions import earlier_versions, keep_version, refuse_undeclared
 from study.web.app import create_app
+from study.web.clip_files import require_clips, require_earlier_clips
 from study.web.credentials import Passwords, open_credentials
 from study.web.site import Door, Site, clips_of, utc_now
 
 if TYPE_CHECKING:
-    from stimuli.manifest import Clip as ManifestClip
     from stimuli.manifest import Manifest
     from study.protocol import Protocol
 
@@ -71,7 +69,7 @@ def serve(
     Answers are kept in `data_folder` (SQLite), or in the database at `url`. With `kind="test"` whoever enters
     without a link is a test, kept apart from the data. `analyse` makes the report the experimenter may see.
     """
-    _require_clips(protocol, manifest, clips_folder)
+    require_clips(protocol, manifest, clips_folder)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # what stops services ends it like Ctrl-C
     store = open_store(url or f"sqlite:///{data_folder / 'study.db'}")
     backups = _backups(store, data_folder / "backups")
@@ -79,6 +77,7 @@ def serve(
         refuse_undeclared(protocol, store.protocol_hashes())
         keep_version(protocol, manifest, data_folder)
         earlier = list(earlier_versions(protocol, data_folder))
+        require_earlier_clips(earlier, store, clips_folder)
         credentials, passwords = open_credentials(data_folder)  # last: passwords that are made are also shown
         site = Site(
             protocol,
@@ -97,29 +96,6 @@ def serve(
         threading.Thread(target=lambda: _when_started(server, lambda: announce(links)), daemon=True).start()
         with suppress(KeyboardInterrupt):  # uvicorn finishes what is under way and raises the signal again
             server.run(sockets=[listener])
-
-
-def _require_clips(protocol: Protocol, manifest: Manifest, folder: Path) -> None:
-    faults = [
-        f"{stimulus}: {fault}"
-        for stimulus in protocol.stimuli
-        if (fault := _clip_fault(manifest.clips.get(stimulus), folder))
-    ]
-    if faults:
-        raise InputError(
-            f"{folder}: {len(faults)} of {len(protocol.stimuli)} clips are not there as rendered "
-            f"({', '.join(faults[:5])}{' …' if len(faults) > 5 else ''}). "
-            f"Run `study render {shlex.quote(str(protocol.path))}` first."
-        )
-
-
-def _clip_fault(clip: ManifestClip | None, folder: Path) -> str | None:
-    """Why a clip must not be served: they would see nothing, another one, or a file from elsewhere."""
-    if clip is None or not (file := folder / clip.file).is_file():
-        return "missing"
-    if file.resolve().parent != folder.resolve():
-        return "a link to another folder"
-    return None if sha256_of(file) == clip.file_sha256 else "changed"
 
 
 def _reached_by(host: str) -> str:

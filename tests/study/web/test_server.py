@@ -22,9 +22,13 @@ from stimuli.manifest import Clip as ManifestClip
 from stimuli.manifest import Manifest
 from study.protocol import Protocol
 from study.storage import open_store
+from study.versions import Version
 from study.web import serve
+from study.web.app import create_app
+from study.web.clip_files import require_earlier_clips
 from study.web.credentials import open_credentials
-from study.web.site import Clip
+from study.web.server import running
+from study.web.site import Clip, Site
 
 SERVE = """
 import sys
@@ -193,6 +197,21 @@ def test_clips_that_are_not_as_rendered_are_not_served(
         (folder / "joy.mp4").write_bytes(b"")
     with pytest.raises(InputError, match=rf"1 of 6 clips are not there as rendered \(joy: {ill}\)"):
         serve(protocol, manifest, clips_folder=folder, data_folder=tmp_path / "data", announce=print)
+
+
+def test_clips_of_an_earlier_version_are_missed_as_long_as_somebody_has_yet_to_see_them(
+    site: Site, protocol: Protocol, manifest: Manifest, tmp_path: Path
+) -> None:
+    before = [Version(protocol.sha256, protocol, manifest)]
+    require_earlier_clips(before, site.store, tmp_path)
+    with (
+        running(create_app(site)) as address,
+        httpx.Client(base_url=address, follow_redirects=True) as client,
+    ):
+        client.post("/start")
+        client.post("/consent", data={"agreed": "yes", "language": "en"})
+        with pytest.raises(InputError, match=r"joy: missing.*began before.*protocol\.yaml` makes them"):
+            require_earlier_clips(before, site.store, tmp_path)
 
 
 def test_damaged_credentials_are_said_and_half_written_ones_not_left(tmp_path: Path) -> None:
