@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from study.orders import Trial
-from study.participants import NAME_PREFIX, Kind
+from study.participants import Kind, is_of
 from study.protocol import Protocol
 from study.questions import Question
 from study.responses import Response
@@ -111,8 +111,7 @@ def responses_json(store: Store, *, kind: Kind = "participant") -> str:
         }
         for session, responses in store.responses(kind)
     ]
-    own = f"{NAME_PREFIX[kind]}-"
-    withdrawn = [vars(note) for note in store.withdrawals() if note.participant.startswith(own)]
+    withdrawn = [vars(note) for note in store.withdrawals() if is_of(kind, note.participant)]
     content = {"kind": kind, "is_data": kind == "participant", "sessions": sessions, "withdrawals": withdrawn}
     return json.dumps(content, indent=1, ensure_ascii=False, default=_moment)
 

@@ -70,6 +70,11 @@ def new_participant(token: str, *, kind: Kind, created_at: datetime) -> Particip
     )
 
 
+def is_of(kind: Kind, name: str) -> bool:
+    """Whether a participant of that name was of that kind: names say so, also when all else is deleted."""
+    return name.startswith(f"{NAME_PREFIX[kind]}-")
+
+
 def new_completion_code() -> str:
     """Draw the code shown at the end, by which a participant is paid or may withdraw."""
     return f"{_code(5)}-{_code(5)}".upper()

@@ -8,6 +8,7 @@ import tempfile
 import threading
 from collections.abc import AsyncIterator
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -27,7 +28,7 @@ from study.web.credentials import LOGIN_LASTS, Role
 from study.web.language import load_language
 from study.web.limits import count_wrong_guess, require_guesses_left
 from study.web.overview import TROUBLES, may_see_report, overview
-from study.web.pages import fragment, render
+from study.web.pages import fragment, render, url
 from study.web.site import site_of
 from study.web.visitor import language_of, speaking, to
 
@@ -253,18 +254,15 @@ def _page(request: Request, template: str) -> Response:
         language=language_of(request),
         live=Markup(_live_part(request)),
         may_edit=role_of(request) == "edit",
-        phase=site.store.phase,
         most_links=MOST_LINKS,
-        has_backup=site.store.file is not None,
-        has_report=site.analyse is not None,
-        report_sealed=not may_see_report(site, overview(site)),
         kiosk_key=site.credentials.kiosk_key,
         form_token=site.credentials.form_token(require_login(request)),
     )
 
 
 def _live_part(request: Request) -> str:
-    language, seen = language_of(request), overview(site_of(request))
+    site, language = site_of(request), language_of(request)
+    seen = overview(site)
     locale = language.replace("-", "_")
 
     def moment(when: datetime) -> str:
@@ -278,4 +276,9 @@ def _live_part(request: Request) -> str:
         troubles=TROUBLES,
         moment=moment,
         may_edit=role_of(request) == "edit",
+        has_backup=site.store.file is not None,
+        has_report=site.analyse is not None,
+        report_sealed=not may_see_report(site, seen),
+        form_token=site.credentials.form_token(require_login(request)),
+        url=partial(url, request.app),
     )

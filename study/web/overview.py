@@ -9,6 +9,7 @@ from datetime import datetime, timedelta
 from typing import Literal
 
 from study.balance import Balance, balance
+from study.participants import is_of
 from study.sessions import next_step
 from study.storage.archive import Event, Progress
 from study.storage.store import Phase
@@ -51,6 +52,7 @@ class Overview:
 
     phase: Phase
     rows: tuple[Row, ...]
+    withdrawn: int
     planned: int
     places: tuple[str, ...]  # of the planned design, in order: the state of its latest holder, or "free"
     balances: tuple[Balance, ...]  # over completed sessions
@@ -89,6 +91,7 @@ def overview(site: Site) -> Overview:
     return Overview(
         phase=site.store.phase,
         rows=tuple(rows),
+        withdrawn=sum(is_of(site.kind, note.participant) for note in site.store.withdrawals()),
         planned=site.protocol.participants.planned,
         places=_places(site, rows),
         balances=tuple(balance(site.protocol, completed)) if completed else (),

@@ -45,7 +45,9 @@ class Guard:
             await send(message)
 
         app = self.app
-        if scope["method"] not in {"GET", "HEAD"} and comes_from_elsewhere(Headers(scope=scope)):
+        if scope["method"] == "HEAD":
+            scope = {**scope, "method": "GET"}  # the same answer, of which the server leaves out the body
+        if scope["method"] != "GET" and comes_from_elsewhere(Headers(scope=scope)):
             app = PlainTextResponse("This request came from another site.", status_code=403)
         await app(scope, receive, guarded_send)
 

@@ -1,37 +1,47 @@
-// The form's answers with their times: when each item was last changed, and how often.
+// The form's answers with their times: when each item was last touched, and how often its answer was replaced.
+// What is typed is an answer once the field is left; until then nothing was replaced.
 
 export class Answers {
   #form;
   #origin = null;
-  #marks = new Map(); // item -> {rt_ms, changes}
+  #touched = new Map(); // item -> when, in ms
+  #answered = new Map(); // item -> {value, changes}
 
   constructor(form) {
     this.#form = form;
-    form.addEventListener("input", ({ target }) => this.#mark(target.name));
+    form.addEventListener("input", ({ target }) => target.name && this.#touch(target.name));
+    form.addEventListener("change", ({ target }) => target.name && this.#answer(target.name));
   }
 
   /** Reaction times count from now: the end of the first full view. */
   start() { this.#origin = performance.now(); }
 
-  #mark(item) {
-    if (!item) return;
-    const before = this.#marks.get(item);
-    const rt = this.#origin === null ? null : performance.now() - this.#origin;
-    this.#marks.set(item, { rt_ms: rt, changes: before ? before.changes + 1 : 0 });
+  #touch(item) {
+    this.#touched.set(item, this.#origin === null ? null : performance.now() - this.#origin);
   }
+
+  #answer(item) {
+    const before = this.#answered.get(item);
+    const value = this.#value(item);
+    if (value === (before?.value ?? "")) return;
+    this.#answered.set(item, { value, changes: before ? before.changes + 1 : 0 });
+  }
+
+  /** "" where nothing is answered. Several ticks of one item are joined by ";". */
+  #value(item) { return new FormData(this.#form).getAll(item).join(";").trim(); }
 
   /** Items in the form, each once, in the order shown. */
   get items() {
     return [...new Set([...this.#form.elements].map((element) => element.name).filter(Boolean))];
   }
 
-  /** One entry per item; an item left out has the value "". Several ticks of one item are joined by ";". */
+  /** One entry per item. */
   read() {
-    const data = new FormData(this.#form);
     return this.items.map((item) => ({
       item,
-      value: data.getAll(item).join(";").trim(),
-      ...(this.#marks.get(item) ?? { rt_ms: null, changes: 0 }),
+      value: this.#value(item),
+      rt_ms: this.#touched.get(item) ?? null,
+      changes: this.#answered.get(item)?.changes ?? 0,
     }));
   }
 }

@@ -9,17 +9,18 @@ export function enliven(form) {
 function makeSlider(row) {
   const range = row.querySelector("input[type=range]");
   const answer = row.querySelector("input[name]");
-  const set = () => {
+  const set = (...heard) => {
     range.classList.remove("unset");
     answer.value = range.value;
-    answer.dispatchEvent(new Event("input", { bubbles: true }));
+    for (const name of heard) answer.dispatchEvent(new Event(name, { bubbles: true }));
   };
-  range.addEventListener("input", (event) => { event.stopPropagation(); set(); });
-  range.addEventListener("click", set); // a mark in the very middle changes nothing
+  range.addEventListener("input", () => set("input"));
+  range.addEventListener("change", () => set("change")); // let go of
+  range.addEventListener("click", () => set("input", "change")); // a mark in the very middle changes nothing
   range.addEventListener("keydown", (event) => {
     if (event.key !== " " && event.key !== "Enter") return;
     event.preventDefault();
-    set();
+    set("input", "change");
   });
   answer.addEventListener("focus", () => range.focus());
 }

@@ -87,6 +87,7 @@ def test_the_page_is_told_of_changes_as_they_happen(experimenter: httpx.Client, 
         assert first.count('<span class="state completed">') == 2
         rehearsed.store.withdraw(rehearsed.store.progress()[0].participant.name, now=rehearsed.clock())
         assert next(parts) != first
+    assert overview(rehearsed).withdrawn == 1
 
 
 def events(stream: httpx.Response) -> Iterator[str]:

@@ -155,6 +155,9 @@ def test_every_page_has_the_headers_that_guard_it(visitor: httpx.Client, path: s
     assert {name: page.headers[name] for name in HEADERS} == HEADERS
     assert "unsafe" not in page.headers["content-security-policy"]
     assert not re.search(r"<script(?![^>]*(src=|application/json))|\son\w+=|style=", page.text)
+    head = visitor.head(path)
+    assert (head.status_code, head.content) == (page.status_code, b"")
+    assert head.headers["content-length"] == page.headers["content-length"]
 
 
 @pytest.mark.parametrize(

@@ -46,11 +46,16 @@ def test_the_experimenter_sees_the_study_as_it_runs(visit, page: Page, desk: Pag
     visit.proceed()
     expect(people.get_by_text("1/9 · instructions:practice")).to_be_visible()
     expect(desk.get_by_text("1 in this hour, 1 in 24 hours")).to_be_visible()
+    desk.get_by_role("button", name="Pause").focus()
+    name = people.locator("code")
+    desk.evaluate("name => getSelection().selectAllChildren(name)", name.element_handle())
     page.evaluate(
         """fetch("/study/events", {method: "POST", headers: {"Content-Type": "application/json"},
                  body: JSON.stringify({name: "video_failed", detail: "<b>503</b>"})})"""
     )
     expect(desk.get_by_text("a video failed: <b>503</b>")).to_be_visible()
+    assert desk.evaluate("getSelection().toString()") == name.inner_text()
+    expect(desk.get_by_role("button", name="Pause")).to_be_focused()
 
     desk.get_by_role("button", name="Pause").click()
     expect(desk.get_by_role("heading", name="The study is paused")).to_be_visible()
@@ -116,12 +121,14 @@ def test_the_report_is_sealed_until_all_have_come_and_the_study_is_closed_by_han
         expect(page.get_by_role("link", name="Report so far")).to_have_count(0)
         for number in range(site.protocol.participants.planned):
             take_part(rehearsal, address, number, {"attentive": 1.0})
-        page.reload()
         with page.expect_download() as download:
             page.get_by_role("link", name="Report so far").click()
         assert download.value.path().read_text() == "the report"
         page.get_by_role("button", name="Close: nobody else can begin").click()
         expect(page.get_by_role("heading", name="The study is closed")).to_be_visible()
+        site.store.enter_phase("open", now=site.clock())  # by a colleague
+        expect(page.get_by_role("heading", name="The study is open")).to_be_visible()
+        site.store.enter_phase("closed", now=site.clock())
         page.goto(address)
         expect(page.get_by_text("The study is closed: nobody can begin")).to_be_visible()
 
