@@ -17,6 +17,7 @@ from study.web.limits import Limits
 from study.web.pages import STATIC, render, static_version
 from study.web.security import Guard
 from study.web.site import Site
+from study.web.turns import Turns
 from study.web.visitor import has_token, language_of
 
 LONGEST_BODY = 256 * 1024
@@ -38,6 +39,7 @@ def create_app(site: Site) -> FastAPI:
     )
     app.state.site = site
     app.state.limits = Limits()
+    app.state.turns = Turns()
     app.state.is_stopping = lambda: False  # the server knows better
     for router in (participant.router, entry.router, experimenter.router):  # looked for in this order
         app.router.routes.extend(router.routes)  # `include_router` would match every request twice

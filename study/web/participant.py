@@ -63,6 +63,7 @@ def questions_of(site: Site, step: Step) -> tuple[Question, ...]:
 @router.route("/study", name="study")
 async def study(request: Request) -> Response:
     """The page that is due, whatever was open before."""
+    await request.app.state.turns.wait()
     site, visit = site_of(request), await visit_of(request)
     if visit is None:
         return to(request, "entry")
