@@ -13,7 +13,8 @@ A study is analysed by `analysis.report.analyse`. The same tests on a pandas Dat
 t(5) = 1.75, p = .071, one-sided, d = 0.71, 95% CI [−0.22, 1.59], N = 6
 
 Every test takes array-likes, leaves missing values (NaN, NA) out, and gives a frozen dataclass; what is
-undefined is None beside a `reason`. Each docstring says what is computed, where from, and the R call it agrees with.
+undefined is None beside a `reason`. Each docstring says what is computed, where from, and the R call it
+agrees with.
 """
 
 from __future__ import annotations

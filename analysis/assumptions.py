@@ -54,7 +54,7 @@ def _of_targets(outcome: Targets) -> Iterator[tuple[str, str, Probabilities]]:
         yield (
             "equally spaced points",
             "Wilcoxon's signed ranks",
-            {key: one.wilcoxon.p for key, one in outcome.results.items()},
+            {key: one.wilcoxon.p_decisive for key, one in outcome.results.items()},
         )
 
 

@@ -54,6 +54,7 @@ class Definition:
     says: str
     fooled_by: str  # what passes for recognition under this definition
     scores: Callable[[Target], Scores]
+    on_scale: bool = False  # the scores are the ratings themselves, and chance is a point of their scale
 
 
 def midpoint(target: Target) -> Scores:
@@ -119,6 +120,7 @@ def fixed(level: float) -> Definition:
         f"the rating against {level:g}",
         "agreeing with everything",
         lambda t: Scores(t.on_target, level),
+        on_scale=True,
     )
 
 
@@ -130,10 +132,14 @@ def applicable(stimuli: int, items: int) -> dict[str, Definition]:
 
 DEFINITIONS: Mapping[str, Definition] = {
     "midpoint": Definition(
-        "A", "rating against the middle of the scale", "agreeing with everything", midpoint
+        "A", "rating against the middle of the scale", "agreeing with everything", midpoint, on_scale=True
     ),
     "grand mean": Definition(
-        "B", "rating against the mean of all ratings (estimated)", "a favourite item", grand_mean
+        "B",
+        "rating against the mean of all ratings (estimated)",
+        "a favourite item",
+        grand_mean,
+        on_scale=True,
     ),
     "other stimuli": Definition(
         "C", "rating minus the same item's mean for the other clips", "an intense clip", other_stimuli

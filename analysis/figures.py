@@ -50,8 +50,8 @@ def _paint_targets(figure: FigureBase, *, outcome: Targets, labels: Mapping[str,
         columns = zip(places, answers.ratings[:, :, i].T, strict=True)
         _strips(axes, columns, width=width, colour=colour)
         _means(axes, outcome, item, places=places, colour=colour)
-    level = next(iter(outcome.results.values())).against.null
-    if scale[0] <= level <= scale[1]:
+    if outcome.definition.on_scale:
+        level = next(iter(outcome.results.values())).against.null
         axes.axhline(level, color=INK, linewidth=0.6, linestyle=DASHED, zorder=1)
         axes.annotate(
             f"chance\n({outcome.chance})", (1, level), xycoords=("axes fraction", "data"), xytext=(2, 0),

@@ -16,8 +16,8 @@ GLOSSARY = {
     "two-sided whatever the test. R: pt(t, df, ncp) solved for ncp",
     "g": "Hedges' g: d without its bias in small samples (exact factor).",
     "sign flip": "Exact test: share of all 2ⁿ signs of the differences that give as extreme a sum.",
-    "Wilcoxon": "Signed-rank test, zeros after Pratt, normal approximation corrected for ties. "
-    'R: coin::wilcoxsign_test(zero.method = "Pratt")',
+    "Wilcoxon": "Signed-rank test, zeros after Pratt; exact, with ties (approximate above 500 answers). "
+    'R: coin::wilcoxsign_test(zero.method = "Pratt", distribution = "exact")',
     "rank biserial": "Rank-biserial correlation: share of rank sum above minus below the null value.",
     "binomial": "Exact binomial test that more than half (two-sided: other than half) chose the answer that "
     "fits the level. R: binom.test",

@@ -125,18 +125,20 @@ class _Tests:
 
     def deciding(self, test: str) -> tuple[str, float | None, str | None]:
         """The declared test's name and p, or the exact one where that is undefined, and why."""
-        testing: dict[str, TTest | Wilcoxon] = {
-            "independent t": self.student, "paired t": self.paired, "wilcoxon": self.wilcoxon,
-        }  # fmt: skip
-        declared = testing.get(test)
-        if declared is None:
+        testing = {
+            "independent t": (self.student.p, self.student.reason),
+            "paired t": (self.paired.p, self.paired.reason),
+            "wilcoxon": (self.wilcoxon.p_decisive, self.wilcoxon.reason),
+        }
+        if test not in testing:
             return self._exact_paired()
-        if declared.p is not None:
-            return test, declared.p, None
+        p, reason = testing[test]
+        if p is not None:
+            return test, p, None
         if test == "independent t":
-            return "Fisher's exact", self._fisher().p, declared.reason
+            return "Fisher's exact", self._fisher().p, reason
         name, p, _ = self._exact_paired()
-        return name, p, declared.reason
+        return name, p, reason
 
     def _fisher(self) -> Fisher:
         """Of choices; of ratings that vary in neither group, whether they are the higher of the two."""

@@ -96,7 +96,7 @@ def confusion_note(outcome: Levels) -> str:
         if sum(row) and sum(round(100 * float(share(k, sum(row)))) for k in row) != 100
     ]
     return (
-        f"N = {n} per cell; {judging.test}, {judging.sides}, alpha = {significance(judging.alpha)}, "
+        f"N = {n} per cell; {judging.named}, {judging.sides}, alpha = {significance(judging.alpha)}, "
         f"{judging.adjustment}: "
         + ", ".join(found)
         + "."

@@ -14,6 +14,7 @@ from analysis.statistics.samples import Moments, moments, observed
 from analysis.statistics.sign_flip import SignFlip, sign_flip
 from analysis.statistics.t_test import Alternative, TTest
 from analysis.statistics.wilcoxon import Wilcoxon, wilcoxon
+from study.protocol.plan import TEST_NAMES, Test
 
 
 @dataclass(frozen=True)
@@ -76,10 +77,15 @@ class Recognised:
 class Judging:
     """How a family of tests is judged."""
 
-    test: str
+    test: Test
     alternative: Alternative
     correction: Correction
     alpha: float
+
+    @property
+    def named(self) -> str:
+        """The declared test as it is called."""
+        return TEST_NAMES[self.test]
 
     @property
     def sides(self) -> str:
@@ -160,7 +166,7 @@ def _name(result: AgainstChance) -> str:
 def _deciding(test: str, result: AgainstChance, ranks: Wilcoxon) -> tuple[str, float | None, str | None]:
     """The declared test's name and p, or the exact test where the declared one is undefined, and why."""
     if test == "wilcoxon" and ranks.p is not None:
-        return test, ranks.p, None
+        return test, ranks.p_decisive, None
     if result.test.p is not None:
         return _name(result), result.test.p, None
     return "exact sign flip", result.exact.p, result.test.reason

@@ -11,8 +11,10 @@ from analysis.further import Further
 from analysis.levels import Compared
 from analysis.plan import Findings, Levels, Outcome, Preferences, Targets
 from analysis.preference import Preferred
+from analysis.statistics.binomial import Binomial
 from analysis.statistics.t_test import Alternative, TTest
 from analysis.target import Judging, Recognised, Verdict
+from study.protocol.plan import TEST_NAMES
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -24,7 +26,7 @@ def sentences(outcome: Outcome) -> dict[str, str]:
         return {name: _preferred(one, outcome.judging) for name, one in outcome.results.items()}
     if isinstance(outcome, Targets):
         return {
-            name: f"{_against(one, outcome)}, {_sentence(one.against.t_test, one.verdict, outcome.judging)}"
+            name: f"{_against(one, outcome)}, {_tested(one, outcome.judging)}"
             for name, one in outcome.results.items()
         }
     return {
@@ -34,9 +36,19 @@ def sentences(outcome: Outcome) -> dict[str, str]:
 
 
 def _against(one: Recognised, outcome: Targets) -> str:
-    """The mean beside chance."""
-    mean = f"M = {apa.number(one.summary.mean)}, SD = {apa.number(one.summary.sd)}"
-    return f"{mean} against chance = {apa.number(one.against.null)} ({outcome.chance})"
+    """The mean rating, and chance; of scores that are no ratings their own mean beside it."""
+    sd = "" if one.summary.sd is None else f", SD = {apa.number(one.summary.sd)}"
+    score = apa.number(one.against.test.estimate)
+    scores = "" if outcome.definition.on_scale else f"; score {score}"
+    chance = f"against chance = {apa.number(one.against.null)} ({outcome.chance})"
+    return f"M = {apa.number(one.summary.mean)}{sd}{scores} {chance}"
+
+
+def _tested(one: Recognised, judging: Judging) -> str:
+    """The test of a target: a t-test, or of hits the exact one."""
+    if isinstance(one.against.test, Binomial):
+        return f"{_decided_by(one.verdict, judging)}, N = {one.against.test.n}"
+    return _sentence(one.against.test, one.verdict, judging)
 
 
 def _levels(one: Compared) -> str:
@@ -51,13 +63,19 @@ def _levels(one: Compared) -> str:
 
 def _sentence(test: TTest, verdict: Verdict, judging: Judging) -> str:
     """A t-test, and beside it the test that decided where that was another."""
-    adjusted = None if judging.correction == "none" else verdict.p_adjusted
     if verdict.test.endswith(" t"):
+        adjusted = None if judging.correction == "none" else verdict.p_adjusted
         return apa.t_sentence(test, adjusted, judging.alpha, judging.adjustment)
-    decided = f"{verdict.test} p {apa.probability(verdict.p, judging.alpha)}, {judging.sides}"
-    if adjusted is not None:
-        decided += f", {judging.adjustment} p {apa.probability(adjusted, judging.alpha)}"
-    return f"{apa.t_sentence(test)}; {decided}"
+    return f"{apa.t_sentence(test)}; {_decided_by(verdict, judging)}"
+
+
+def _decided_by(verdict: Verdict, judging: Judging) -> str:
+    """The test that decided, with its p."""
+    name = TEST_NAMES.get(verdict.test, verdict.test).removesuffix(" test")
+    decided = f"{name} p {apa.probability(verdict.p, judging.alpha)}, {judging.sides}"
+    if judging.correction != "none" and verdict.p_adjusted is not None:
+        decided += f", {judging.adjustment} p {apa.probability(verdict.p_adjusted, judging.alpha)}"
+    return decided
 
 
 def _preferred(one: Preferred, judging: Judging) -> str:
@@ -124,26 +142,38 @@ def warnings(findings: Findings) -> list[str]:
         if isinstance(outcome, Targets):
             said += _depends(name, outcome)
         said += _assumes(name, outcome)
-        undefined = {key: one.verdict for key, one in outcome.results.items() if one.verdict.note}
-        for reason in dict.fromkeys(verdict.note for verdict in undefined.values()):
-            which = ", ".join(key for key, verdict in undefined.items() if verdict.note == reason)
-            instead = all(verdict.p is not None for verdict in undefined.values() if verdict.note == reason)
-            exact = "; an exact test decides" if instead else ""
-            said.append(f"{name}: {outcome.judging.test} {reason} ({which}){exact}.")
+        if not (isinstance(outcome, Levels) and outcome.mirrors):
+            said += _undefined(name, outcome)
     return said
+
+
+def _undefined(name: str, outcome: Outcome) -> Iterator[str]:
+    """Where the declared test has no answer, why, and which exact test decides instead."""
+    replaced: dict[tuple[str | None, str], list[str]] = {}
+    for key, one in outcome.results.items():
+        if one.verdict.note:
+            exact = f"; {one.verdict.test} test decides" if one.verdict.p is not None else ""
+            replaced.setdefault((one.verdict.note, exact), []).append(key)
+    for (reason, exact), keys in replaced.items():
+        yield f"{name}: {outcome.judging.named} {reason} ({', '.join(keys)}){exact}."
 
 
 def _depends(name: str, outcome: Targets) -> Iterator[str]:
     """Which decisions another definition of chance turns round."""
-    turned: dict[str, list[str]] = {}
+    turned: dict[str, list[str]] = {}  # by the definitions that do
     for stimulus, one in outcome.results.items():
-        for definition, verdict in one.sensitivity_verdicts.items():
-            if verdict.significant != one.verdict.significant:
-                meaning = one.sensitivity[definition].definition
-                turned.setdefault(f"by {meaning.id}, {meaning.says}", []).append(stimulus)
+        if others := [
+            one.sensitivity[name].definition.id
+            for name, verdict in one.sensitivity_verdicts.items()
+            if verdict.significant != one.verdict.significant
+        ]:
+            turned.setdefault(", ".join(others), []).append(stimulus)
     if turned:
-        which = "; ".join(f"{meaning}: {', '.join(stimuli)}" for meaning, stimuli in turned.items())
-        yield f"{name}: the decision depends on the definition of chance. Decided otherwise: {which}."
+        which = "; ".join(f"{', '.join(stimuli)} by {others}" for others, stimuli in turned.items())
+        yield (
+            f"{name}: the decision depends on the definition of chance. Decided otherwise: {which} "
+            "(defined below)."
+        )
 
 
 def _assumes(name: str, outcome: Outcome) -> Iterator[str]:
@@ -187,7 +217,7 @@ def method(outcome: Outcome) -> str:
     judging = outcome.judging
     alpha = apa.significance(judging.alpha)
     how = (
-        f"{judging.test[0].upper()}{judging.test[1:]}, {judging.sides}, α = {alpha}; "
+        f"{judging.named[0].upper()}{judging.named[1:]}, {judging.sides}, α = {alpha}; "
         f"{judging.adjustment} p for {len(outcome.results)} test{'s' * (len(outcome.results) != 1)}."
     )
     if isinstance(outcome, Targets):

@@ -8,6 +8,7 @@ from typing import Any
 from study.power import family_size
 from study.protocol import Exclusions, Hypothesis, Order, Part, Participants, Protocol
 from study.protocol.parts import BETWEEN, could_be_meant, series_of
+from study.protocol.plan import TEST_NAMES
 from study.protocol.protocol import Video
 from study.questions import Question
 from study.questions.scale import Scale
@@ -19,14 +20,6 @@ ORDERS = {
     "shuffled": "a random order of its own for each participant",
     "fixed": "the order given here, for everybody",
     BETWEEN: "one of them per participant, evenly assigned",
-}
-TESTS = {
-    "one-sample t": "one-sample t-test",
-    "independent t": "Student's t-test of independent samples",
-    "paired t": "paired t-test",
-    "wilcoxon": "Wilcoxon's signed-rank test",
-    "mcnemar": "McNemar's exact test",
-    "binomial": "exact binomial test",
 }
 SIDES = {"greater": "one-sided, greater", "less": "one-sided, less", "two-sided": "two-sided"}
 
@@ -196,7 +189,7 @@ def stated(protocol: Protocol, hypothesis: Hypothesis) -> str:
 
 def tested(protocol: Protocol, hypothesis: Hypothesis) -> str:
     """The test that decides, exactly: of what, against what, which side, which correction."""
-    test = f"{TESTS[hypothesis.test]} ({SIDES[hypothesis.alternative]})"
+    test = f"{TEST_NAMES[hypothesis.test]} ({SIDES[hypothesis.alternative]})"
     if hypothesis.compare is None:
         of = f"of the ratings on the target item{_targets(protocol, hypothesis)} against "
         of += chance_of(protocol, hypothesis)

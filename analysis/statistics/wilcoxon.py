@@ -31,6 +31,11 @@ class Wilcoxon:
     zero_rule: str
     reason: str | None = None
 
+    @property
+    def p_decisive(self) -> float | None:
+        """The exact p; of more values than it is computed for, the approximate one."""
+        return self.p if self.p_exact is None else self.p_exact
+
 
 def wilcoxon(
     values: ArrayLike,

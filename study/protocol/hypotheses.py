@@ -81,6 +81,8 @@ def _test(
         )
     elif hypothesis.test == "binomial" and hypothesis.of and hypothesis.against != HITS:
         yield (*here, "test"), f"counts hits, which needs against: {HITS}"
+    elif hypothesis.against == HITS and hypothesis.of and hypothesis.test != "binomial":
+        yield (*here, "against"), "counts hits, which needs test: binomial"
     elif tested == "pairs":
         yield from _of_pairs(protocol, hypothesis, part, here)
     elif tested == "target":

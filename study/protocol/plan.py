@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BeforeValidator, ConfigDict, Field, model_validator
@@ -13,6 +14,14 @@ from study.written import A_HYPOTHESIS, Seconds, Written, wrong
 
 Probability = Annotated[float, Field(gt=0, lt=1)]
 Test = Literal["one-sample t", "independent t", "paired t", "wilcoxon", "mcnemar", "binomial"]
+TEST_NAMES: Mapping[str, str] = {
+    "one-sample t": "one-sample t-test",
+    "independent t": "Student's t-test of independent samples",
+    "paired t": "paired t-test",
+    "wilcoxon": "Wilcoxon's signed-rank test",
+    "mcnemar": "McNemar's exact test",
+    "binomial": "exact binomial test",
+}
 ChanceName = Literal[
     "midpoint",
     "grand mean",

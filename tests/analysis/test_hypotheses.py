@@ -14,12 +14,13 @@ from analysis.apa import number
 from analysis.chance import DEFINITIONS
 from analysis.dataset import Responses, read_responses
 from analysis.exclusions import Flow
+from analysis.figures import draw_targets
 from analysis.further import look_further
 from analysis.plan import Findings, Levels, Targets, carry_out
 from analysis.report import analyse
 from analysis.statistics.t_test import Alternative
 from analysis.target import Judging, recognition
-from analysis.words import sentences, summary
+from analysis.words import sentences, summary, warnings
 from study.protocol import Protocol, load_protocol
 from study.protocol.errors import ProtocolError
 from tests.analysis.conftest import PAPER, Write, choices, ratings
@@ -65,8 +66,55 @@ def test_a_sentence_reports_the_test_that_was_declared(tmp_path: Path, write: Wr
     assert isinstance(compared, Levels)
     t = compared.results["joy"].paired.t
     assert f", t(11) = {number(t)}, " in sentences(compared)["joy"]
-    assert "wilcoxon p" in sentences(outcomes["H3"])["joy"]
+    ranks = sentences(outcomes["H3"])["joy"]
+    assert "; score 1.98 against chance = 0.00 (other items), " in ranks
+    assert ranks.endswith("; Wilcoxon's signed-rank p = .002, one-sided")
     assert "; McNemar's exact p" in sentences(outcomes["H5"])["ant"]
+
+
+HITS = """
+  H3: {part: recognition, test: binomial, of: target, against: best item, alternative: greater}
+"""
+
+
+def test_hits_are_counted_and_decisions_that_hang_on_chance_are_named_together(
+    tmp_path: Path, write: Write
+) -> None:
+    protocol = with_hypotheses(tmp_path, HITS)
+    rated = [
+        (person, clip, item, "3" if (clip, item) == ("joy", "joy") else "2" if clip == "joy" else rating)
+        for person, clip, item, rating in ratings(n=12)
+    ]
+    findings = carry_out(read_responses(write([*rated, *choices(n=12)]), protocol), protocol)
+    hits = sentences(findings.outcomes["H3"])["joy"]
+    assert hits == (
+        "M = 3.00, SD = 0.00; score 1.00 against chance = 0.17 (best item), "
+        "exact binomial p < .001, one-sided, N = 12"
+    )
+    assert (
+        "H1: the decision depends on the definition of chance. "
+        "Decided otherwise: joy by B, C, D, E1, E2, F, G (defined below)."
+    ) in warnings(findings)
+
+
+def test_hits_need_the_test_that_counts_them(tmp_path: Path) -> None:
+    with pytest.raises(ProtocolError, match="against: 'best item' counts hits, which needs test: binomial"):
+        with_hypotheses(tmp_path, HITS.replace("binomial", "wilcoxon"))
+
+
+def test_only_chance_that_is_a_rating_is_a_line_among_the_ratings(tmp_path: Path, write: Write) -> None:
+    protocol = with_hypotheses(tmp_path, MORE)
+    outcomes = carry_out(read_responses(write([*ratings(n=4), *choices(n=4)]), protocol), protocol).outcomes
+    drawn = {name: draw_targets(outcomes[name], {}).figure.axes[0].texts for name in ("H1", "H3")}
+    assert [len(texts) for texts in drawn.values()] == [1, 0]
+
+
+def test_few_ranks_are_decided_by_their_exact_test(tmp_path: Path, write: Write) -> None:
+    protocol = with_hypotheses(tmp_path, MORE)
+    rows = [(p, s, i, "5" if s == i else "1") for p, s, i, _ in ratings(n=4)]
+    verdict = carry_out(read_responses(write([*rows, *choices(n=4)]), protocol), protocol).outcomes["H3"]
+    # R: coin::wilcoxsign_test(rep(4, 4) ~ rep(0, 4), distribution = "exact", alternative = "greater") is 1/16
+    assert {one.verdict.p for one in verdict.results.values()} == {1 / 16}
 
 
 def test_a_hypothesis_bears_a_name_that_a_file_can_bear(tmp_path: Path) -> None:

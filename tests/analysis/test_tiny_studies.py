@@ -30,10 +30,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Protocol]:
     folder = tmp_path_factory.mktemp("protocol")
     text = (PROTOCOLS / "godspeed" / "protocol.yaml").read_text(encoding="utf-8")
     (folder / "groups.yaml").write_text(
-        text.replace("gestures/", f"{PROTOCOLS}/godspeed/gestures/").replace(
-            "straight_lining: true", "incomplete: false"
-        ),
-        encoding="utf-8",
+        text.replace("straight_lining: true", "incomplete: false"), encoding="utf-8"
     )
     paper = with_hypotheses(folder, MORE).path
     smaller = {
