@@ -119,9 +119,13 @@ def _framed(
 def _closest_camera(specs: Sequence[StimulusSpec], robot: Robot) -> str:
     """The closest preset in which no motion leaves the frame."""
     from stimuli.framing import closest_camera
-    from stimuli.motion import generate
+    from stimuli.motion import generate, learn
 
-    motions = [generate(spec, robot).trajectory for spec in specs]
+    lessons = {
+        (gesture, learning): learn(gesture, robot, learning)
+        for gesture, learning in {(spec.gesture, spec.learning) for spec in specs}
+    }
+    motions = [generate(spec, robot, lessons[spec.gesture, spec.learning]).trajectory for spec in specs]
     return closest_camera(robot, motions, width=specs[0].video.width, height=specs[0].video.height)
 
 

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any, Literal
 
 from stimuli.ends import EASE_S, rests_at_ends
 from stimuli.errors import InputError
-from stimuli.gestures import read_gesture
-from stimuli.motion import generate
+from stimuli.motion import Lesson, generate, learn
 from stimuli.relations import in_short, relations_of
 from stimuli.robots import load_robot
 from stimuli.robots.model import Robot
-from stimuli.trajectory import Trajectory
 from study.balance import DRAWN, balance
 from study.orders import cycle, draw_plan
 from study.power import power
-from study.protocol import Protocol, Stimulus
+from study.protocol import Protocol
 from study.questions.scale import Scale
 from study.specs import ABSENT, specs
 from study.untranslated import unseen_languages, untranslated
@@ -26,6 +25,7 @@ from study.web.language import interface_languages
 from study.words import count, in_brief, listed, tested
 
 Verdict = Literal["good", "mind", "wrong"]
+Progress = Callable[[int, int], object]  # how many of how many
 WIDTH = 110  # of the screen
 
 
@@ -82,9 +82,10 @@ def _wrapped(message: str, width: int) -> list[str]:
     ]
 
 
-def check(protocol: Protocol) -> Report:
-    """Look at everything that can be known before data are gathered."""
-    looked_at = (_structure, _unseen, _alike, _motions, _texts, _orders, _stop, _hypotheses)
+def check(protocol: Protocol, progress: Progress | None = None) -> Report:
+    """Look at everything that can be known before data are gathered; `progress` hears of each motion."""
+    motions = partial(_motions, progress=progress or (lambda *_: None))
+    looked_at = (_structure, _unseen, _alike, motions, _texts, _orders, _stop, _hypotheses)
     findings = tuple(finding for look in looked_at for finding in look(protocol))
     return Report(protocol.study, protocol.sha256, findings)
 
@@ -119,16 +120,14 @@ def _unseen(protocol: Protocol) -> Iterator[Finding]:
 def _alike(protocol: Protocol) -> Iterator[Finding]:
     """Stimuli of a part that are one and the same motion."""
     for part_id, part in protocol.written_parts.items():
-        known: list[Stimulus] = []
+        known: dict[tuple[str, str], str] = {}
         for stimulus in protocol.stimuli_of(part_id):
             if part.reference and stimulus.level == part.reference:
                 continue
-            motion = (stimulus.gesture, stimulus.modulation)
-            same = next((one for one in known if (one.gesture, one.modulation) == motion), None)
-            if same:
-                yield Finding("mind", "stimuli", f"{same.id} and {stimulus.id} are the same motion")
-            else:
-                known.append(stimulus)
+            motion = (stimulus.gesture, stimulus.modulation.model_dump_json())
+            same = known.setdefault(motion, stimulus.id)
+            if same != stimulus.id:
+                yield Finding("mind", "stimuli", f"{same} and {stimulus.id} are the same motion")
 
 
 def _alone(error: InputError, value: str) -> str:
@@ -136,7 +135,7 @@ def _alone(error: InputError, value: str) -> str:
     return str(error).removeprefix(value).lstrip()
 
 
-def _motions(protocol: Protocol) -> Iterator[Finding]:
+def _motions(protocol: Protocol, progress: Progress) -> Iterator[Finding]:
     """Every gesture can be read, and the robots can do every stimulus."""
     robots, broken = {}, []
     for name in protocol.robots:
@@ -149,11 +148,11 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
     if broken:
         yield Finding("wrong", "robot", "\n".join(broken))
         return
-    gestures = {}
+    lessons = {}
     for name, gesture in protocol.gestures.items():
         try:
-            gestures[name] = read_gesture(
-                protocol.folder / gesture.file, robots[protocol.robot_of(name)], protocol.learning.dt_s
+            lessons[name] = learn(
+                protocol.folder / gesture.file, robots[protocol.robot_of(name)], protocol.learning
             )
         except InputError as error:
             there = (protocol.folder / gesture.file).is_file()
@@ -163,16 +162,18 @@ def _motions(protocol: Protocol) -> Iterator[Finding]:
         return
     titles = ", ".join(robot.title for robot in robots.values())
     yield Finding("good", "gestures", f"{len(protocol.gestures)} read for {titles}")
-    yield from _eased(gestures, protocol)
+    yield from _eased(lessons, protocol)
     if any({"sec", "follow"} & set(one.modulation.model_dump()) for one in protocol.stimuli.values()):
         for robot in robots.values():
             yield Finding("good", "relations", in_short(relations_of(robot, robot.joint_names)))
     beyond = []
-    for spec in specs(protocol).values():
+    wanted = specs(protocol)
+    for done, (id_, spec) in enumerate(wanted.items(), start=1):
         try:
-            generate(spec, robots[spec.robot])
+            generate(spec, robots[spec.robot], lessons[protocol.stimuli[id_].gesture])
         except InputError as error:
             beyond.append(str(error))
+        progress(done, len(wanted))
     if beyond:
         yield Finding("wrong", "motions", "\n".join(beyond))
     else:
@@ -189,10 +190,10 @@ def _unchecked(robots: Mapping[str, Robot]) -> Iterator[Finding]:
             yield Finding("mind", "motions", f"{unchecked}; give `velocities` in the robot's file")
 
 
-def _eased(gestures: Mapping[str, Trajectory], protocol: Protocol) -> Iterator[Finding]:
+def _eased(lessons: Mapping[str, Lesson], protocol: Protocol) -> Iterator[Finding]:
     """Which gestures do not rest where they start or end, if they need not."""
-    for name, gesture in gestures.items() if protocol.learning.moving_ends == "ease" else ():
-        ends = zip(("start", "end"), rests_at_ends(gesture), strict=True)
+    for name, lesson in lessons.items() if protocol.learning.moving_ends == "ease" else ():
+        ends = zip(("start", "end"), rests_at_ends(lesson.demonstration), strict=True)
         moving = " and ".join(end for end, rests in ends if not rests)
         if moving:
             eased = f"eased over {EASE_S:g} s of it, which then take twice as long: docs/formats.md"

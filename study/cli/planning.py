@@ -38,8 +38,9 @@ def check(path: ProtocolPath, as_json: AsJson = False) -> None:
     """Check everything that can be known before the first participant comes."""
     from study.check import check as check_protocol
 
-    with console.status("checking …"):
-        report = check_protocol(load(path))
+    protocol = load(path)
+    with progress("checking motions", None) as advance:
+        report = check_protocol(protocol, advance)
     if as_json:
         print_json(report.as_json())
     else:

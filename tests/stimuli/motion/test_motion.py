@@ -13,7 +13,7 @@ from stimuli.dmp import Learning, Primitive
 from stimuli.errors import InputError
 from stimuli.feasibility import TOLERANCE, in_short, violations
 from stimuli.kinematics import link_poses
-from stimuli.motion import generate
+from stimuli.motion import generate, learn
 from stimuli.principles import PRINCIPLES, Modulation
 from stimuli.relations import found, relations_of
 from stimuli.robots.model import Relation
@@ -60,6 +60,16 @@ def test_a_plain_stimulus_moves_as_demonstrated(spec, robot):
     assert np.abs(motion.trajectory.at(shown.times) - shown.positions).max() < 2e-3
     assert motion.margins["Shoulder"]["position"] == pytest.approx(1.0, abs=1e-2)
     assert 0.9 < motion.margins["Shoulder"]["velocity"] < 1
+
+
+def test_a_gesture_learned_once_moves_as_one_learned_anew(spec, robot):
+    wanted = spec(exa=1.2, time=0.9)
+    anew = generate(wanted, robot)
+    lesson = learn(wanted.gesture, robot, wanted.learning)
+    wanted.gesture.unlink()
+    np.testing.assert_array_equal(
+        generate(wanted, robot, lesson).trajectory.positions, anew.trajectory.positions
+    )
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,23 @@ def test_the_papers_protocol_is_one_screen():
     assert found(report, "texts").verdict == "good"
 
 
+def test_each_motion_is_told_of_as_it_is_checked():
+    told = []
+    protocol = load_protocol(PAPER)
+    check(protocol, lambda done, of: told.append((done, of)))
+    assert told == [(done, len(protocol.stimuli)) for done in range(1, len(protocol.stimuli) + 1)]
+
+
+def test_a_demonstration_that_is_too_much_for_the_robot_is_said_once(load, written, tmp_path):
+    (tmp_path / "gestures").mkdir()
+    for file in written["gestures"].values():
+        table = "time,HeadYaw\n0,0\n0.05,1\n0.1,0\n0.2,0\n0.3,0\n"
+        (tmp_path / file).with_suffix(".csv").write_text(table)
+    written["gestures"] = {name: f"gestures/{name}.csv" for name in written["gestures"]}
+    message = found(check(load(written)), "gestures").message
+    assert message.count("the demonstration itself exceeds what pepper can do: HeadYaw") == 2
+
+
 def test_a_value_stands_once_in_its_message(load, written):
     written["robot"] = "peper"
     message = found(check(load(written)), "robot").message
