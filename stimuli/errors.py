@@ -12,12 +12,17 @@ class InputError(Exception):
     """Something the user gave cannot be used; the message names the place, the value and what would do."""
 
 
+def closest(name: object, known: Iterable[str]) -> str | None:
+    """The known name that was probably meant."""
+    names = {each.lower(): each for each in known}
+    close = difflib.get_close_matches(str(name).lower(), names, n=1, cutoff=0.6)
+    return names[close[0]] if close else None
+
+
 def nearest(name: object, known: Iterable[str]) -> str:
     """Say which of the known names was meant, if one is near, and otherwise list them all."""
     names = list(known)
-    close = difflib.get_close_matches(str(name).lower(), [n.lower() for n in names], n=1, cutoff=0.6)
-    if close:
-        meant = next(n for n in names if n.lower() == close[0])
+    if meant := closest(name, names):
         return f"did you mean {meant}?"
     more = f" and {len(names) - LISTED} more" if len(names) > LISTED else ""
     return f"known: {', '.join(names[:LISTED])}{more}" if names else "none is defined"

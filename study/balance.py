@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import csv
-import io
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
+from typing import TextIO
 
 from study.orders import Plan
 from study.protocol import Part, Protocol
@@ -89,9 +89,8 @@ def _balance(protocol: Protocol, part: Part, plans: Iterable[Plan]) -> Balance:
     )
 
 
-def orders_csv(protocol: Protocol, plans: Sequence[Plan]) -> str:
-    """Every trial of every plan, one row each, as a table for a spreadsheet."""
-    table = io.StringIO()
+def write_orders(protocol: Protocol, plans: Iterable[Plan], table: TextIO) -> None:
+    """Write every trial of every plan, one row each, as a table for a spreadsheet; plan by plan."""
     rows = csv.writer(table)
     rows.writerow(["slot", "part", "trial", "stimulus", "reference", "left", "items", "options"])
     for plan in plans:
@@ -101,7 +100,6 @@ def orders_csv(protocol: Protocol, plans: Sequence[Plan]) -> str:
             options = " | ".join(" ".join(options) for _, _, options in asked)
             clips = (trial.stimulus, trial.reference or "", trial.pair[0] if trial.pair else "")
             rows.writerow([plan.slot, trial.part, trial.number, *clips, items, options])
-    return table.getvalue()
 
 
 def balance_table(parts: Sequence[Balance]) -> str:

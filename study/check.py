@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from datetime import date
 from functools import partial
 from typing import Any, Literal
 
@@ -82,10 +83,14 @@ def _wrapped(message: str, width: int) -> list[str]:
     ]
 
 
-def check(protocol: Protocol, progress: Progress | None = None) -> Report:
-    """Look at everything that can be known before data are gathered; `progress` hears of each motion."""
+def check(protocol: Protocol, progress: Progress | None = None, *, today: date | None = None) -> Report:
+    """Look at everything that can be known before data are gathered.
+
+    `progress` hears of each motion; dates are looked at where it is told what day it is.
+    """
     motions = partial(_motions, progress=progress or (lambda *_: None))
-    looked_at = (_structure, _unseen, _alike, motions, _texts, _orders, _stop, _hypotheses)
+    amendments = partial(_amendments, today=today)
+    looked_at = (_structure, _unseen, _alike, motions, _texts, _orders, _stop, _hypotheses, amendments)
     findings = tuple(finding for look in looked_at for finding in look(protocol))
     return Report(protocol.study, protocol.sha256, findings)
 
@@ -238,7 +243,7 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
     elif planned % whole:
         fewer, more = planned - planned % whole, planned - planned % whole + whole
         others = f"{fewer} or {more}" if fewer else str(more)
-        yield Finding("mind", "orders", f"uneven with {planned} participants; even with {others}")
+        yield Finding("mind", "orders", f"uneven with {count(planned, 'participant')}; even with {others}")
     else:
         yield Finding(
             "good", "orders", f"{planned} participants fill them evenly, as does every multiple of {whole}"
@@ -251,9 +256,18 @@ def _orders(protocol: Protocol) -> Iterator[Finding]:
 
 def _stop(protocol: Protocol) -> Iterator[Finding]:
     rules = protocol.participants
-    closes = f"the study closes itself when {rules.planned} have completed it"
+    who = "one has" if rules.planned == 1 else f"{rules.planned} have"
+    closes = f"the study closes itself when {who} completed it"
     by_hand = "the experimenter closes the study"
     yield Finding("good", "stop", closes if rules.stop == "when complete" else by_hand)
+
+
+def _amendments(protocol: Protocol, today: date | None) -> Iterator[Finding]:
+    """Changes bear the day on which they were declared."""
+    for amendment in protocol.amendments:
+        if today and amendment.date > today:
+            message = f"{amendment.date} lies ahead; give the day of the change: {amendment.reason}"
+            yield Finding("mind", "amendments", message)
 
 
 def _hypotheses(protocol: Protocol) -> Iterator[Finding]:

@@ -47,7 +47,7 @@ class Design:
 
     def _lines(self) -> Iterator[str]:
         each = f"each {count(self.videos, 'video')}, about {count(self.minutes, 'minute')}"
-        yield f"{self.study}: {self.planned} participants, {each}"
+        yield f"{self.study}: {count(self.planned, 'participant')}, {each}"
         if self.cycle > 1:
             even = "even" if self.planned % self.cycle == 0 else "uneven"
             yield f"orders are even after every {self.cycle} participants, and {even} with {self.planned}"

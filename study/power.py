@@ -41,7 +41,8 @@ class Power:
 
     def __str__(self) -> str:
         if self.smallest is None:
-            return f"{self.n} participants cannot reach a power of {AIM:.0%} at alpha {self.alpha:.3g}"
+            who = "1 participant" if self.n == 1 else f"{self.n} participants"
+            return f"{who} cannot reach a power of {AIM:.0%} at alpha {self.alpha:.3g}"
         name = "d" if self.effect == "d" else "a share"
         found = f"{name} ≥ {math.ceil(100 * self.smallest) / 100:.2f}"  # rounded up, or it would not be found
         return f"{self.n} participants find {found} with a power of {AIM:.0%}"

@@ -14,10 +14,10 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, SerializeAsAny, ValidationError, model_serializer, model_validator
 
 from stimuli.course import Course
-from stimuli.errors import nearest
+from stimuli.errors import closest, nearest
 from stimuli.principles.principle import Principle, Stage
 
-__all__ = ["PRINCIPLES", "Modulation", "Principle", "Stage"]
+__all__ = ["PRINCIPLES", "Modulation", "Principle", "Stage", "nearest_principle"]
 
 
 def _kinds() -> dict[str, type[Principle]]:
@@ -73,10 +73,17 @@ def in_order(principles: Iterable[Principle]) -> tuple[Principle, ...]:
     return tuple(sorted(principles, key=lambda principle: list(PRINCIPLES).index(principle.kind)))
 
 
+def nearest_principle(name: object) -> str:
+    """Say which principle was meant, if one is near by its kind or title, and otherwise list all kinds."""
+    kinds = {principle.title.lower().replace(" ", "_"): kind for kind, principle in PRINCIPLES.items()}
+    close = closest(name, [*PRINCIPLES, *kinds])
+    return nearest(kinds.get(close or "", name), PRINCIPLES)
+
+
 def _principle(kind: object, parameters: object) -> Principle:
     """One principle from its parameters; ValueError names kind, field, value and what would do."""
     if kind not in PRINCIPLES:
-        raise ValueError(f"{kind!r} is not a principle; {nearest(kind, PRINCIPLES)}")
+        raise ValueError(f"{kind!r} is not a principle; {nearest_principle(kind)}")
     made = PRINCIPLES[str(kind)]
     if not isinstance(parameters, Mapping):
         parameters = {"intensity": parameters}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import shlex
 import sys
 from dataclasses import asdict
+from datetime import date
+from itertools import chain, islice
 from pathlib import Path
 from typing import Annotated
 
@@ -40,7 +42,7 @@ def check(path: ProtocolPath, as_json: AsJson = False) -> None:
 
     protocol = load(path)
     with progress("checking motions", None) as advance:
-        report = check_protocol(protocol, advance)
+        report = check_protocol(protocol, advance, today=date.today())
     if as_json:
         print_json(report.as_json())
     else:
@@ -55,18 +57,22 @@ def orders(
     as_json: AsJson = False,
 ) -> None:
     """Print who sees what when as CSV, and how well that is balanced."""
-    from study.balance import balance, balance_table, orders_csv
+    from study.balance import DRAWN, balance, balance_table, write_orders
     from study.orders import draw_plan
 
     protocol = load(path)
-    plans = [draw_plan(protocol, slot) for slot in range(n or protocol.participants.planned)]
-    counts = balance(protocol, plans)
+    wanted = n or protocol.participants.planned
+    plans = (draw_plan(protocol, slot) for slot in range(wanted))
     if as_json:
         print_json([asdict(plan) for plan in plans])
-    else:
-        sys.stdout.write(orders_csv(protocol, plans))
-        sys.stdout.flush()
-        Console(stderr=True, highlight=False, soft_wrap=True).print(balance_table(counts))
+        return
+    counted = list(islice(plans, DRAWN))
+    write_orders(protocol, chain(counted, plans), sys.stdout)
+    sys.stdout.flush()
+    screen = Console(stderr=True, highlight=False, soft_wrap=True)
+    if wanted > DRAWN:
+        screen.print(f"Of the first {DRAWN} participants:")
+    screen.print(balance_table(balance(protocol, counted)))
 
 
 @app.command()

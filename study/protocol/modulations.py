@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from pydantic_core import InitErrorDetails
 
 from stimuli.errors import nearest
-from stimuli.principles import PRINCIPLES, Modulation
+from stimuli.principles import PRINCIPLES, Modulation, nearest_principle
 from study.written import NAME, refusal, relocated, reworded, wrong_at
 
 LEVELS = ("low", "medium", "high")  # names of a list of three
@@ -28,7 +28,7 @@ def _modulation(principles: Mapping[str, Any]) -> Modulation:
     errors: list[InitErrorDetails] = []
     for kind, value in principles.items():
         if kind not in PRINCIPLES:
-            meant = "write decimals with a point, as in 1.4" if kind.isdigit() else nearest(kind, PRINCIPLES)
+            meant = "write decimals with a point, as in 1.4" if kind.isdigit() else nearest_principle(kind)
             error = wrong_at((kind,), f"is no principle; {meant}", value, NAME)
             errors += relocated(error, ())
             continue

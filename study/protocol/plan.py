@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
 from stimuli.errors import nearest
 from study.protocol.recorded import Recorded
@@ -47,10 +47,17 @@ Chance = Annotated[float | ChanceName, BeforeValidator(_chance)]
 class Exclusions(Written):
     """Rules by which a participant is left out of the tests."""
 
-    faster_than: Seconds | None = None  # median time per answer
+    faster_than: Seconds | None = None  # median time per answer; a minute at most
     failed_attention: int | None = Field(None, ge=1)  # so many failed attention checks, or more
     incomplete: bool = True
     straight_lining: bool = False  # the same answer to every item of a part
+
+    @field_validator("faster_than")
+    @classmethod
+    def _leaves_somebody(cls, seconds: float | None) -> float | None:
+        if seconds is not None and not 0 < seconds <= 60:
+            raise wrong("must be more than 0 s and at most 60 s: who answers faster is left out")
+        return seconds
 
 
 def _not_empty(value: Any) -> Any:

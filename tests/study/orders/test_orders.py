@@ -2,6 +2,7 @@
 
 import copy
 import csv
+import errno
 import io
 import random
 from collections import Counter
@@ -15,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stimuli.errors import InputError
-from study.balance import balance, balance_table, orders_csv
+from study.balance import balance, balance_table, write_orders
 from study.chance import Stream
 from study.designs import latin_square, williams
 from study.orders import assign_slot, cycle, draw_plan
@@ -247,9 +248,24 @@ def test_items_are_shuffled_once_per_participant():
 
 def test_the_csv_names_what_is_asked_on_each_page():
     protocol = load_protocol(PAPER.folder.parent / "online")
-    rows = list(csv.DictReader(io.StringIO(orders_csv(protocol, [draw_plan(protocol, 0)]))))
+    write_orders(protocol, [draw_plan(protocol, 0)], table := io.StringIO())
+    rows = list(csv.DictReader(table.getvalue().splitlines()))
     checked = [row["trial"] for row in rows if "attention" in row["items"]]
     assert checked == ["4", "9"]
+
+
+def test_very_many_orders_are_written_one_by_one():
+    class Full(io.StringIO):
+        def write(self, text):
+            if text.startswith("3,"):
+                raise OSError(errno.ENOSPC, "No space left on device")
+            return super().write(text)
+
+    drawn = []
+    plans = (drawn.append(slot) or draw_plan(PAPER, slot) for slot in range(100_000))
+    with pytest.raises(OSError, match="No space left"):
+        write_orders(PAPER, plans, table := Full())
+    assert drawn == [0, 1, 2, 3] and table.getvalue().count("\n") > 50
 
 
 def test_the_table_tells_positions_and_who_follows_whom():

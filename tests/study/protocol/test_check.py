@@ -1,10 +1,12 @@
 """What `study check` says is one screen: what is good, what to mind, what must be mended."""
 
+from datetime import date
 from pathlib import Path
 
 import pytest
 
 from study.check import check
+from study.design import design
 from study.protocol import ProtocolError, load_protocol
 
 PAPER = Path(__file__).parents[3] / "protocols" / "hielscher2025"
@@ -104,6 +106,23 @@ def test_what_a_slip_of_the_pen_leaves_is_to_be_minded(load, written):
     assert found(report, "stimuli").message == "joy and glee are the same motion"
     minded = [one.message for one in report.findings if one.verdict == "mind"]
     assert "nobody sees those in de: the study is in en, as its title or `languages` says" in minded
+
+
+def test_an_amendment_dated_ahead_is_to_be_minded(load, written):
+    written["amendments"] = [{"date": "2026-11-23", "reason": "A word", "replaces": "0" * 12}]
+    protocol = load(written)
+    for today, minded in ((date(2026, 11, 22), ["2026-11-23 lies ahead; give the day of the change: A word"]),
+                          (date(2026, 11, 23), [])):  # fmt: skip
+        report = check(protocol, today=today)
+        assert [one.message for one in report.findings if one.about == "amendments"] == minded
+
+
+def test_one_participant_is_not_called_many(load, written):
+    written["participants"]["planned"] = 1
+    report, protocol = str(check(load(written))), load(written)
+    assert "uneven with one participant; even with 6" in report
+    assert "closes itself when one has completed it" in report and "1 participants" not in report
+    assert str(design(protocol)).startswith("hielscher2025: one participant, each")
 
 
 def test_of_very_many_participants_the_first_are_counted(load, written, monkeypatch):

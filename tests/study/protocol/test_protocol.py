@@ -270,6 +270,21 @@ def test_a_camera_is_one_of_the_scenes(load, written):
         ("video.hold", "61 s", "must be at most 60 s"),
         ("study", "My study", "must begin with a letter from a to z, with letters, digits, - and _ after it"),
         ("seed", -1, "must be at least 0"),
+        ("participants.exclude", {"faster_than": "3 d"}, "at most 60 s: who answers faster is left out"),
+        ("participants.exclude", {"faster_than": "0 s"}, "at most 60 s: who answers faster is left out"),
+        *(
+            ("modulations.joy", {name: 1}, f"is no principle; did you mean {kind}?")
+            for kind, name in {
+                "ant": "anticipation",
+                "exa": "exaggeration",
+                "follow": "follow_through",
+                "goal": "interactive_goal",
+                "rand": "randomization",
+                "sec": "secondary",
+                "slow": "slow_in_out",
+                "time": "timing",
+            }.items()
+        ),
     ],
 )
 def test_a_value_that_will_not_do_is_told_what_would(load, written, where, value, message):
