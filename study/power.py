@@ -1,10 +1,11 @@
 """How small an effect the planned participants can find.
 
-Each hypothesis is taken at the smallest level its correction can leave a single test (alpha / m). Ratings:
-the effect is d, the difference in standard deviations. Choices between two levels: the effect is the share h
-of participants who choose the outcome for the first level when 1 - h choose it for the second, answers given
-independently; the test counted is McNemar's exact one, whatever test the hypothesis names. Pairs: the share
-of participants who prefer the first, by the exact binomial test.
+Each hypothesis is taken at the smallest level its correction can leave a single test: alpha / m. That is what
+Holm's and Benjamini and Hochberg's leave to an effect that is the only one of its family; more effects make
+each easier to find. Ratings: the effect is d, the difference in standard deviations. Choices between two
+levels: the effect is the share h of participants who choose the outcome for the first level when 1 - h choose
+it for the second, answers given independently; the test counted is McNemar's exact one, whatever test the
+hypothesis names. Pairs: the share of participants who prefer the first, by the exact binomial test.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ class Power:
     hypothesis: str
     n: int
     tests: int  # in its family
+    correction: str  # for their number
     alpha: float  # of the hardest test of the family
     effect: Effect
     smallest: float | None  # effect found with a power of 80 %; None where none can be
@@ -50,8 +52,10 @@ class Power:
     @property
     def level(self) -> str:
         """At which level of significance, and by which test."""
-        strictest = f"in the strictest of {self.tests} tests, " if self.tests > 1 else ""
-        return f"{strictest}at alpha = {self.alpha:.4g}{self.basis}"
+        which = "each" if self.correction == "none" else "the strictest"
+        alone = ", the only one to find something" if self.correction == "benjamini-hochberg" else ""
+        of = f"in {which} of {self.tests} tests{alone}, " if self.tests > 1 else ""
+        return f"{of}at alpha = {self.alpha:.4g}{self.basis}"
 
     @property
     def planning(self) -> str:
@@ -127,8 +131,7 @@ def family_size(protocol: Protocol, hypothesis: Hypothesis) -> int:
 def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
     n, part = protocol.participants.planned, protocol.written_parts[hypothesis.part]
     judged, tests = protocol.judged_in(hypothesis.part), family_size(protocol, hypothesis)
-    corrected = hypothesis.correction in {"holm", "bonferroni"}
-    alpha = protocol.analysis.alpha / (tests if corrected else 1)
+    alpha = protocol.analysis.alpha / (1 if hypothesis.correction == "none" else tests)
     two_sided = hypothesis.alternative == "two-sided"
     effect: Effect = "d" if hypothesis.outcome is None and part.pairs is None else "share"
 
@@ -157,6 +160,7 @@ def _power(protocol: Protocol, name: str, hypothesis: Hypothesis) -> Power:
         hypothesis=name,
         n=n,
         tests=tests,
+        correction=hypothesis.correction,
         alpha=alpha,
         effect=effect,
         smallest=smallest_effect(lambda size: at(n, size), least, largest) if n // split > 1 else None,

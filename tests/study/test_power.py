@@ -7,6 +7,7 @@ import pytest
 from scipy.stats import binom, binomtest
 from statsmodels.stats.power import TTestIndPower, TTestPower
 
+from analysis.statistics.adjustment import adjust
 from study.power import (
     AIM,
     mcnemar_power,
@@ -74,6 +75,29 @@ def test_the_effect_that_is_printed_is_found():
         assert found.smallest is not None
         printed = float(str(found).split("≥ ")[1].split()[0])
         assert 0 <= printed - found.smallest < 0.01
+
+
+@pytest.mark.parametrize(
+    ("correction", "alpha", "said"),
+    [
+        ("none", 0.05, "in each of 6 tests, at alpha = 0.05"),
+        ("holm", 0.05 / 6, "in the strictest of 6 tests, at alpha = 0.008333"),
+        (
+            "benjamini-hochberg",
+            0.05 / 6,
+            "in the strictest of 6 tests, the only one to find something, at alpha = 0.008333",
+        ),
+    ],
+)
+def test_the_level_is_the_one_the_correction_leaves_to_a_single_effect(tmp_path, correction, alpha, said):
+    text = (PAPER.path).read_text(encoding="utf-8")
+    (tmp_path / "protocol.yaml").write_text(text.replace("correction: holm", f"correction: {correction}"))
+    found = power(load_protocol(tmp_path))[0]
+    assert (found.alpha, found.level) == (pytest.approx(alpha), said)
+    p = [alpha - 1e-9, *[0.9] * 5]  # of one effect alone: significant only below that level
+    for shift, significant in ((0, True), (2e-9, False)):
+        family = {str(at): value for at, value in enumerate([p[0] + shift, *p[1:]])}
+        assert (adjust(family, correction)["0"] < 0.05) == significant
 
 
 def test_without_an_effect_power_is_at_most_alpha():
