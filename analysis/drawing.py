@@ -108,7 +108,7 @@ class Drawing:
         """Draw onto a figure, or a part of one."""
         self.paint(figure)
         if self.note:
-            figure.supxlabel(self.note, fontsize=5.5, color=ALARM)
+            figure.supxlabel(self.note, fontsize=6, color=ALARM)
 
     @cached_property
     def figure(self) -> Figure:

@@ -55,7 +55,7 @@ def _paint_targets(figure: FigureBase, *, outcome: Targets, labels: Mapping[str,
         axes.axhline(level, color=INK, linewidth=0.6, linestyle=DASHED, zorder=1)
         axes.annotate(
             f"chance\n({outcome.chance})", (1, level), xycoords=("axes fraction", "data"), xytext=(2, 0),
-            textcoords="offset points", ha="left", va="center", fontsize=5.5, color=INK,
+            textcoords="offset points", ha="left", va="center", fontsize=6, color=INK,
         )  # fmt: skip
     axes.set_xlim(-0.5, len(answers.stimuli) - 0.5)
     _scale(axes, scale)
@@ -139,7 +139,7 @@ def draw_levels(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
     return Drawing(
         name=outcome.name,
         paint=partial(_paint_levels, outcome=outcome, labels=labels),
-        height_in=2.1,
+        height_in=2.3,
         caption=f"Share of participants who answered “{outcome.comparison.outcome}” by intended level, "
         "with 95% Wilson intervals and counts.",
         alt="; ".join(
@@ -156,20 +156,16 @@ def _paint_levels(figure: FigureBase, *, outcome: Levels, labels: Mapping[str, s
 
     axes = figure.add_subplot()
     names = list(outcome.results)
-    looks = [(level, marker, colour, side) for level, (marker, colour, side) in zip(
-        outcome.comparison.levels, (("^", COLOURS[4], 1), ("v", COLOURS[3], -1)), strict=True)]  # fmt: skip
-    for level, marker, colour, side in looks:
+    looks = [*zip(outcome.comparison.levels, "^v", (COLOURS[4], COLOURS[3]), (-0.12, 0.12), strict=True)]
+    for row, (level, marker, colour, aside) in enumerate(looks):
         shown = []
+        _below(axes, -0.52, level, row=row, colour=colour, align="right")
         for x, one in enumerate(outcome.results.values()):
             k, other = one.choices.counts[level] if one.choices else (0, 0)
+            _below(axes, x, f"{k}/{k + other}", row=row, colour=colour)
             if limits := wilson(k, k + other):
                 share = k / (k + other)
-                shown.append((x - 0.12 * side, share, share - limits[0], limits[1] - share))
-                axes.annotate(
-                    f"{k}/{k + other}", (x - 0.12 * side, share), xytext=(-5 * side, 0),
-                    textcoords="offset points", ha="right" if side > 0 else "left", va="center",
-                    fontsize=5, color=INK,
-                )  # fmt: skip
+                shown.append((x + aside, share, share - limits[0], limits[1] - share))
         if shown:
             places, shares, below, above = np.array(shown).T
             axes.errorbar(
@@ -178,7 +174,7 @@ def _paint_levels(figure: FigureBase, *, outcome: Levels, labels: Mapping[str, s
             )  # fmt: skip
     axes.axhline(0.5, color=INK, linewidth=0.6, linestyle=DASHED, zorder=1)
     axes.set_ylim(-0.04, 1.04)
-    axes.set_xlim(-0.75, len(names) - 0.4)
+    axes.set_xlim(-0.5, len(names) - 0.5)
     axes.set_yticks([0, 0.25, 0.5, 0.75, 1], ["0", ".25", ".50", ".75", "1"])
     axes.set_xticks(range(len(names)), [labels.get(name, name.capitalize()) for name in names])
     axes.tick_params(axis="x", length=0)
@@ -188,6 +184,14 @@ def _paint_levels(figure: FigureBase, *, outcome: Levels, labels: Mapping[str, s
         for level, marker, colour, _ in looks
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=2, handletextpad=0.1)
+
+
+def _below(axes: Axes, x: float, text: str, *, row: int, colour: str, align: str = "center") -> None:
+    """Write in a row under the names on the horizontal axis."""
+    axes.annotate(
+        text, (x, 0), xycoords=("data", "axes fraction"), xytext=(0, -14 - 8 * row), annotation_clip=False,
+        textcoords="offset points", ha=align, va="top", fontsize=6, color=colour,
+    )  # fmt: skip
 
 
 def draw_compared(outcome: Levels, labels: Mapping[str, str]) -> Drawing:
@@ -239,8 +243,9 @@ def _paint_compared(figure: FigureBase, *, outcome: Levels, labels: Mapping[str,
     axes.set_xlim(-0.5, len(comparison.pairs) - 0.5)
     axes.set_xticks(places, names)
     axes.tick_params(axis="x", length=0)
-    axes.set_ylabel("Rating, mean ± SE")
-    for x, name in enumerate(comparison.pairs):
+    alone = labels.get(comparison.item, comparison.item) if len(comparison.pairs) == 1 else ""
+    axes.set_ylabel(f"{alone or 'Rating'}, mean ± SE")
+    for x, name in enumerate(() if alone else comparison.pairs):
         axes.annotate(
             labels.get(name, name.capitalize()), (x, 1), xycoords=("data", "axes fraction"), ha="center",
             va="bottom",

@@ -54,7 +54,7 @@ def _paint_flow(figure: FigureBase, *, flow: Flow, left_out: list[str]) -> None:
 
 
 def draw_forest(findings: Findings, labels: Mapping[str, str]) -> Drawing | None:
-    """Cohen's d of every test with its interval; None where no hypothesis has one."""
+    """Cohen's d of every test with its interval; None where there is none."""
     rows: list[tuple[str, TTest | None]] = []
     for name, outcome in findings.outcomes.items():
         if isinstance(outcome, Targets):
@@ -65,7 +65,7 @@ def draw_forest(findings: Findings, labels: Mapping[str, str]) -> Drawing | None
             continue
         rows.append((name, None))
         rows += [(labels.get(key, key.capitalize()), test) for key, test in tests.items()]
-    if not rows:
+    if all(test is None or test.d is None for _, test in rows):
         return None
     return Drawing(
         name="effects",
@@ -110,5 +110,5 @@ def _name_rows(axes: Axes, rows: list[tuple[str, TTest | None]], heights: np.nda
         elif test.d is None:
             axes.annotate(
                 str(test.reason), (0, y), xytext=(4, 0), textcoords="offset points", va="center",
-                fontsize=5.5, color=FAINT,
+                fontsize=6, color=FAINT,
             )  # fmt: skip

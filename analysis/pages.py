@@ -141,10 +141,11 @@ class Pages:
         )  # fmt: skip
         part = self.page.add_subfigure(grid[1, 1])
         drawing.onto(part)
-        for axes, laid_out in zip(part.axes, drawing.figure.axes, strict=True):
-            axes.set_position(laid_out.get_position())
         if height < drawing.height_in:  # the margins of the taller figure are too narrow
             lay_out(self.page)
+        else:
+            for axes, laid_out in zip(part.axes, drawing.figure.axes, strict=True):
+                axes.set_position(laid_out.get_position())
         self.y -= room
 
     def _row(self, cells: Sequence[str], widths: Sequence[float], *, size: float, bold: bool = False) -> None:

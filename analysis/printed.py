@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 
 TARGET_HEAD = ("Clip", "N", "M", "SD", "t", "df", "p", "p adj.", "d [95% CI]")
 LEVEL_HEAD = ("Principle", "shares", "t", "df", "p", "p adj.", "d [95% CI]", "McNemar p", "diff. [95% CI]")
-RATING_HEAD = ("Rating", "means", "t", "df", "p", "p adj.", "d [95% CI]", "Welch p", "diff. [95% CI]")
+RATING_HEAD = ("Rating", "means", "t", "df", "p", "p adj.", "d [95% CI]", "Wilcoxon p", "diff. [95% CI]")
+GROUPS_HEAD = tuple("Welch p" if name == "Wilcoxon p" else name for name in RATING_HEAD)
 
 
 def write_pdf(path: Path, results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) -> None:
@@ -82,8 +83,10 @@ def _outcome(
             )
             pages.tabulate(*_definitions(outcome, labels))
         elif isinstance(outcome, Levels):
-            head = LEVEL_HEAD if outcome.comparison.outcome else RATING_HEAD
-            pages.tabulate(head, _level_rows(outcome, labels))
+            ratings = RATING_HEAD if outcome.within else GROUPS_HEAD
+            pages.tabulate(
+                LEVEL_HEAD if outcome.comparison.outcome else ratings, _level_rows(outcome, labels)
+            )
     for key, sentence in sentences(outcome).items():
         pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
 
@@ -131,6 +134,7 @@ def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
     rows = []
     for key, one in outcome.results.items():
         test, choices = one.deciding_t, one.choices
+        beside = one.wilcoxon.p_decisive if outcome.within else one.welch.p
         counts = choices.counts.values() if choices else ()
         found = [apa.share(row[0], sum(row)) for row in counts] or [
             apa.number(m.mean) for m in one.summaries.values()
@@ -139,7 +143,7 @@ def _level_rows(outcome: Levels, labels: Mapping[str, str]) -> list[list[str]]:
             labels.get(key, key.capitalize()), " / ".join(found),
             apa.number(test.t), apa.degrees(test.df), _p(test.p, outcome),
             _p(one.verdict.p_adjusted, outcome), apa.estimate(test.d, test.d_ci95),
-            _p(choices.mcnemar.p(outcome.judging.alternative) if choices else one.welch.p, outcome),
+            _p(choices.mcnemar.p(outcome.judging.alternative) if choices else beside, outcome),
             apa.estimate(choices.difference.estimate, choices.difference.ci95)
             if choices else apa.estimate(test.estimate, test.ci95),
         ])  # fmt: skip

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from analysis.apa import degrees, interval, number, probability, share, significance, unbroken
 from analysis.levels import Choices, Compared
 from analysis.plan import Levels, Targets
+from analysis.statistics.t_test import TTest
 
 SPECIAL = {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_",
@@ -45,7 +46,8 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
         r"% packages: amsmath, booktabs, diagbox",
         r"\begin{table}",
         r"  \centering",
-        r"  \setlength{\tabcolsep}{3pt}",
+        r"  \footnotesize",
+        r"  \setlength{\tabcolsep}{1.8pt}",
         rf"  \begin{{tabular}}{{c|{pairs}}}",
         r"    \toprule",
         f"    & {' & '.join(heads)} \\\\",
@@ -53,6 +55,7 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
         rf"    \diagbox[width=3em, height=2em]{{$I_M$}}{{$I_P$}} & {arrows} \\",
         r"    \midrule",
     ]
+    found = escaped(unbroken(confusion_note(outcome))).replace(" p~", " $p$~")
     for level in outcome.comparison.levels:
         own = outcome.comparison.levels.index(level)
         shares, counts = [], []
@@ -69,7 +72,7 @@ def confusion_latex(outcome: Levels, note: str = "") -> str:
         r"  \end{tabular}",
         rf"  \caption{{{noted(note)}"
         r"Normalized confusion matrices for intensity-scaled principles: intended ($I_M$) against "
-        rf"perceived intensity ($I_P$), with counts. {escaped(unbroken(confusion_note(outcome)))}}}",
+        rf"perceived intensity ($I_P$), with counts. {found}}}",
         rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
     ]
@@ -141,7 +144,7 @@ def targets_csv(outcome: Targets, note: str = "") -> str:
         d = (test.d, *(test.d_ci95 or (None, None)))
         summary = (one.summary.n, one.summary.mean, one.summary.sd, one.summary.se)
         tested = (test.t, test.df, one.against.test.p, one.verdict.p_adjusted, one.verdict.test, *d)
-        exact = (one.against.exact.p, one.wilcoxon.z, one.wilcoxon.p)
+        exact = (one.against.exact.p, one.wilcoxon.z, one.wilcoxon.p_decisive)
         rows.append((one.stimulus, one.item, *summary, one.against.null, *tested, *exact))
     return as_csv(head, rows, note)
 
@@ -162,6 +165,8 @@ def targets_latex(outcome: Targets, note: str = "") -> str:
         r"% packages: booktabs",
         r"\begin{table}",
         r"  \centering",
+        r"  \footnotesize",
+        r"  \setlength{\tabcolsep}{3pt}",
         r"  \begin{tabular}{lrrrrrrr}",
         r"    \toprule",
         r"    & $N$ & $M$ & $SD$ & $t$ & $df$ & $p$ & $d$ [95\% CI] \\",
@@ -175,15 +180,15 @@ def targets_latex(outcome: Targets, note: str = "") -> str:
             f"{in_math(number(one.summary.mean))} & {in_math(number(one.summary.sd))} & "
             f"{in_math(number(test.t))} & "
             f"{in_math(degrees(test.df))} & {in_math(p)} & "
-            f"{in_math(number(test.d))} {in_math(interval(test.d_ci95))} \\\\"
+            f"{_effect(test)} \\\\"
         )
     judging = outcome.judging
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
         rf"  \caption{{{noted(note)}Ratings of the intended expression against chance "
-        rf"({escaped(outcome.definition.says)}); {judging.test}, {judging.sides}, "
-        rf"$p$ {judging.adjustment}.}}",
+        rf"({escaped(outcome.definition.says)}); {judging.named}, {judging.sides}, "
+        rf"$p$ {judging.adjustment}.{_decided_otherwise(outcome)}}}",
         rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
     ]
@@ -197,8 +202,9 @@ def compared_csv(outcome: Levels, note: str = "") -> str:
         "d_ci_high", "welch_p", "paired_p", "wilcoxon_p",
     )  # fmt: skip
     rows = [
-        (one.name, level, m.n, m.mean, m.sd, m.se, *_tested(one), one.welch.p, one.paired.p, one.wilcoxon.p)
+        (one.name, level, m.n, m.mean, m.sd, m.se, *_tested(one), *others)
         for one in outcome.results.values()
+        for others in [(one.welch.p, one.paired.p, one.wilcoxon.p_decisive)]
         for level, m in one.summaries.items()
     ]
     return as_csv(head, rows, note)
@@ -211,7 +217,7 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
         r"% packages: booktabs",
         r"\begin{table}",
         r"  \centering",
-        r"  \small",
+        r"  \footnotesize",
         r"  \setlength{\tabcolsep}{3pt}",
         r"  \begin{tabular}{lrrrrrr}",
         r"    \toprule",
@@ -225,18 +231,18 @@ def compared_latex(outcome: Levels, note: str = "") -> str:
         lines.append(
             f"    {escaped(_label(one))} & {' & '.join(means)} & {in_math(number(test.t))} & "
             f"{in_math(degrees(test.df))} & {in_math(p)} & "
-            f"{in_math(number(test.d))} {in_math(interval(test.d_ci95))} \\\\"
+            f"{_effect(test)} \\\\"
         )
     judging = outcome.judging
     sizes = "; ".join(
-        f"{_label(one)} $n$ = {', '.join(str(m.n) for m in one.summaries.values())}"
+        f"{escaped(_label(one))} $n$~=~{', '.join(str(m.n) for m in one.summaries.values())}"
         for one in outcome.results.values()
     )
     lines += [
         r"    \bottomrule",
         r"  \end{tabular}",
-        rf"  \caption{{{noted(note)}Ratings compared, $M$ ($SD$): {judging.test}, {judging.sides}, "
-        rf"$p$ {judging.adjustment}. {sizes}.}}",
+        rf"  \caption{{{noted(note)}Ratings compared, $M$ ($SD$): {judging.named}, {judging.sides}, "
+        rf"$p$ {judging.adjustment}. {sizes}.{_decided_otherwise(outcome)}}}",
         rf"  \label{{tab:{outcome.name}}}",
         r"\end{table}",
     ]
@@ -251,6 +257,20 @@ def noted(note: str) -> str:
 def in_math(text: str) -> str:
     """A number as LaTeX sets it."""
     return "--" if text == "–" else f"${text.replace('−', '-').replace('∞', chr(92) + 'infty')}$"
+
+
+def _effect(test: TTest) -> str:
+    """The size of an effect with its interval."""
+    return "--" if test.d is None else f"{in_math(number(test.d))} {in_math(interval(test.d_ci95))}"
+
+
+def _decided_otherwise(outcome: Targets | Levels) -> str:
+    """Which rows another test than the declared one decided."""
+    replaced: dict[str, list[str]] = {}
+    for name, one in outcome.results.items():
+        if one.verdict.note:
+            replaced.setdefault(one.verdict.test, []).append(escaped(name.capitalize()))
+    return "".join(f" {', '.join(names)}: {test} test." for test, names in replaced.items())
 
 
 def _cell(text: str, *, bold: bool) -> str:

@@ -62,7 +62,8 @@ def test_degenerate_responses_give_a_whole_report(
 ) -> None:
     analyse(write(CASES[case]), everyone(paper), tmp_path)
     assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
-    assert (tmp_path / "figures" / "effects.svg").exists()
+    assert (tmp_path / "figures" / "recognition.svg").exists()
+    assert not (tmp_path / "figures" / "effects.svg").exists()  # an axis with nothing on it
 
 
 def test_simulated_answers_are_labelled_in_everything_written(paper: Protocol, tmp_path: Path) -> None:

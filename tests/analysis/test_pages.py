@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import FigureBase
 
 from analysis.drawing import Drawing
 from analysis.line import Line
@@ -51,6 +52,24 @@ def test_a_figure_is_drawn_lower_rather_than_leave_half_a_page_empty(tmp_path: P
         assert pages.number == 1
         assert {"Effect sizes", "Its caption."} < set(texts(pages))
         assert pages.y >= MARGIN_IN - 0.01
+
+
+def named_axis(figure: FigureBase) -> None:
+    figure.add_subplot().set_xlabel("Cohen's d, 95% CI")
+
+
+@pytest.mark.parametrize("room", [6.0, 4.0, 3.5])
+def test_a_note_in_a_figure_that_is_drawn_lower_keeps_clear_of_its_axis(tmp_path: Path, room: float) -> None:
+    figure = Drawing(name="f", paint=named_axis, height_in=3, caption="Its caption.", alt="")
+    with Pages(tmp_path / "p.pdf", "T", "") as pages:
+        pages.y = room
+        pages.draw(figure.noting("Simulated answers, no data"))
+        assert pages.page is not None
+        FigureCanvasAgg(pages.page).draw()
+        drawn = pages.page.subfigs[0]
+        note = next(text for text in drawn.texts if text.get_text().startswith("Simulated"))
+        label = drawn.axes[0].xaxis.label
+        assert note.get_window_extent().y1 < label.get_window_extent().y0
 
 
 def test_a_figure_taller_than_a_page_is_drawn_smaller(tmp_path: Path) -> None:

@@ -161,13 +161,16 @@ def test_equal_responses_give_equal_bytes_and_mujoco_is_not_needed(
 
 
 @pytest.mark.parametrize("name", ["intensity", "recognition"])
-def test_the_latex_tables_compile(study: tuple[Results, Path], tmp_path: Path, name: str) -> None:
+def test_the_latex_tables_compile_and_fit_a_column(
+    study: tuple[Results, Path], tmp_path: Path, name: str
+) -> None:
     table = (study[1] / "tables" / f"{name}.tex").read_text(encoding="utf-8")
     packages = next(line for line in table.splitlines() if line.startswith("% packages: "))
     paper = tmp_path / "paper.tex"
     paper.write_text(
         "\\documentclass{article}\n"
         f"\\usepackage{{{packages.removeprefix('% packages: ').replace(' ', '')}}}\n"
+        "\\setlength{\\textwidth}{252pt}\n"
         f"\\begin{{document}}\n{table}\\end{{document}}\n",
         encoding="utf-8",
     )
