@@ -17,6 +17,7 @@ from stimuli.errors import InputError
 from stimuli.outline import placed, places, vertices
 from stimuli.robots.descriptions import PREFIX, find_description
 from stimuli.robots.facts import LOOK, sources_sha256
+from stimuli.robots.limits import Limits, beyond_belief
 from stimuli.robots.mimics import Mimic, coupled, mimicked
 from stimuli.robots.model import Joint, JointKind, Robot, Vector
 from stimuli.robots.robot_file import Place, RobotFile, check_names, read_robot_file
@@ -27,7 +28,10 @@ KINDS: Mapping[int, JointKind] = {
     int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
 }
 HALF_TURNS = (-np.pi, np.pi)  # of a hinge that turns without end
-CODE = tuple(f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "packages", "mimics", "meshes"))
+ANYWHERE = (-np.inf, np.inf)  # where a joint that follows may go, if it has no range
+CODE = tuple(
+    f"robots/{name}.py" for name in ("files", "robot_file", "urdf", "packages", "mimics", "limits", "meshes")
+)
 
 
 @dataclass(frozen=True)
@@ -165,12 +169,22 @@ def _joints(
         while parent in led:
             parent = model.body_weldid[model.body_parentid[parent]]
         turn = data.xmat[parent].reshape(3, 3).T
-        kind, limited = KINDS[int(joint.type[0])], bool(joint.limited[0])
-        if kind == "prismatic" and not limited:
+        kind = KINDS[int(joint.type[0])]
+        if kind == "prismatic" and not joint.limited[0]:
             raise InputError(
                 f'{source}: joint {joint.name!r}: a slide without a range; give range="LOWER UPPER", in m'
             )
-        low, high = joint.range if limited else HALF_TURNS
+        limits = _limits(model, joint.name, velocities, HALF_TURNS)
+        if problem := beyond_belief(kind, limits):
+            raise InputError(f"{source}: joint {joint.name!r}: {problem}")
+        for follower in (name for name, mimic in mimics.items() if mimic.joint == joint.name):
+            own = _limits(model, follower, velocities, ANYWHERE)
+            limits = limits.and_also(own.of_leader(mimics[follower]))
+            if limits.lower >= limits.upper:
+                raise InputError(
+                    f"{source}: joint {follower!r} follows {joint.name!r}, but keeping to both their ranges "
+                    "neither can move; mend the ranges, or how it follows"
+                )
         xyz = turn @ (data.xpos[child] - data.xpos[parent])
         rpy = Rotation.from_matrix(turn @ data.xmat[child].reshape(3, 3)).as_euler(
             "xyz", suppress_warnings=True
@@ -184,12 +198,20 @@ def _joints(
                 origin_xyz=_vector(xyz),
                 origin_rpy=_vector(rpy),
                 axis=_vector(joint.axis),
-                lower=float(low),
-                upper=float(high),
-                max_velocity=velocities.get(joint.name),
+                lower=limits.lower,
+                upper=limits.upper,
+                max_velocity=limits.velocity,
             )
         )
     return tuple(joints)
+
+
+def _limits(
+    model: mujoco.MjModel, name: str, velocities: Mapping[str, float], unlimited: tuple[float, float]
+) -> Limits:
+    joint = model.joint(name)
+    lower, upper = map(float, joint.range if joint.limited[0] else unlimited)
+    return Limits(lower, upper, velocities.get(name))
 
 
 def _vector(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Vector:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from stimuli.errors import InputError, nearest
+from stimuli.robots.limits import FURTHEST_M, Limits, beyond_belief
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 BOUNDED = ("revolute", "prismatic")
@@ -86,9 +87,10 @@ def _check_size(body: ET.Element, what: str, places: Places) -> None:
     """Sizes above zero; a mesh may be mirrored."""
     for attribute, count in SIZES.get(body.tag, {}).items():
         sizes = _numbers(body, attribute, count, "1 1 1" if attribute == "scale" else "", what, places)
-        if any(size == 0 or (size < 0 and attribute != "scale") for size in sizes):
+        if any(size == 0 or (size < 0 and attribute != "scale") or size > FURTHEST_M for size in sizes):
             problem = f"{body.tag}: {attribute} {body.get(attribute)!r}"
-            raise InputError(f"{places.of(body)}: {what}: {problem}; sizes are above zero, in m")
+            remedy = f"sizes are above zero and at most {FURTHEST_M:g}, in m"
+            raise InputError(f"{places.of(body)}: {what}: {problem}; {remedy}")
 
 
 def _check_joint(
@@ -149,12 +151,17 @@ def _check_limit(joint: ET.Element, kind: str, what: str, places: Places, *, fol
     if kind in BOUNDED and not follows and lower >= upper:
         problem = f"lower {lower:g} is not below upper {upper:g}"
         raise InputError(f"{places.of(limit)}: {what}: limit: {problem}; {other}")
+    limits = Limits(lower, upper, velocity) if kind in BOUNDED else Limits(0, 0, velocity)
+    if absurd := beyond_belief("prismatic" if kind == "prismatic" else "revolute", limits):
+        raise InputError(f"{places.of(limit)}: {what}: limit: {absurd}")
 
 
 def _check_origin(element: ET.Element, what: str, places: Places) -> None:
     for origin in element.findall("origin"):
-        for attribute in ("xyz", "rpy"):
-            _numbers(origin, attribute, 3, "0 0 0", what, places)
+        _numbers(origin, "rpy", 3, "0 0 0", what, places)
+        if max(map(abs, _numbers(origin, "xyz", 3, "0 0 0", what, places))) > FURTHEST_M:
+            problem = f"origin: xyz {origin.get('xyz')!r} is further than {FURTHEST_M:g} m"
+            raise InputError(f"{places.of(origin)}: {what}: {problem}; give it in m")
 
 
 def _check_tree(links: Mapping[str, ET.Element], joints: Mapping[str, ET.Element], places: Places) -> None:

@@ -38,10 +38,16 @@ TURN = '<limit lower="-1" upper="1.5" velocity="2.5"/>'
         ('lower="-1"', 'lower="nan"', "9: joint 'turn': limit: lower is 'nan', not a number"),
         ('velocity="2.5"', 'velocity="-2"', "9: joint 'turn': limit: velocity -2 is below zero; give"),
         ('velocity="2.5"', 'velocity="fast"', "9: joint 'turn': limit: velocity is 'fast', not a number"),
+        ('upper="1.5"', 'upper="1e9"', "9: joint 'turn': limit: 1e+09 rad is more than 10 turns; give it in"),
+        ('lower="-1"', 'lower="-90"', "9: joint 'turn': limit: -90 rad is more than 10 turns; give it in"),
+        ('upper="0.3"', 'upper="300"', "11: joint 'reach': limit: 300 m is further than 100 m; give it in m"),
+        ('velocity="1"', 'velocity="1e16"', "11: joint 'reach': limit: velocity 1e+16 is above 1000 per"),
+        ("0 0 0.2", "0 0 200", "8: joint 'turn': origin: xyz '0 0 200' is further than 100 m; give it in m"),
+        ("0.06 0.06 0.5", "60 60 500", "5: link 'arm': box: size '60 60 500'; sizes are above zero and at"),
         ('upper="1.5"', 'upper="${reach}"', "9: this is xacro still, at <limit>. Expand it"),
         ('mass value="1"', 'mass value="-1"', "2: link 'base': mass: value -1 is below zero; give"),
         ('iyy="1"', 'iyy="-1"', "3: link 'base': inertia: iyy -1 is below zero; give"),
-        ("0.06 0.06 0.5", "0.06 0 0.5", "5: link 'arm': box: size '0.06 0 0.5'; sizes are above zero, in m"),
+        ("0.06 0.06 0.5", "0.06 0 0.5", "5: link 'arm': box: size '0.06 0 0.5'; sizes are above zero and at"),
         (' length="0.2"', "", "4: link 'base': cylinder: length is '', not a number"),
         ('xyz="0 1 0"', 'xyz="0 0 0"', "8: joint 'turn': axis 0 0 0 points nowhere; 0 0 1 is upwards"),
         ('rpy="0 0 0.3"', 'rpy="0 0"', "8: joint 'turn': origin: rpy is '0 0', not 3 numbers"),
@@ -78,6 +84,32 @@ def test_a_joint_that_follows_another_needs_no_range_of_its_own(tmp_path: Path) 
 
 
 @pytest.mark.parametrize(
+    ("follows", "lower", "upper", "velocity"),
+    [
+        ('<mimic joint="turn"/>', -1, 1.5, 2.5),
+        ('<mimic joint="turn" multiplier="-0.1" offset="0.1"/>' + REACH, -1, 1, 2.5),
+        ('<mimic joint="turn" multiplier="0.5"/>' + REACH, 0, 0.6, 2),
+        ('<mimic joint="turn" multiplier="0" offset="0.2"/>' + REACH, -1, 1.5, 2.5),
+    ],
+)
+def test_a_leader_goes_as_far_and_fast_as_those_that_follow_it_may(
+    follows: str, lower: float, upper: float, velocity: float, tmp_path: Path
+) -> None:
+    (tmp_path / "lift.urdf").write_text(URDF.replace(REACH, follows), encoding="utf-8")
+    (tmp_path / "lift.yaml").write_text("robot: lift\ntitle: A lift\nmodel: lift.urdf\n")
+    (turn,) = load_robot("lift.yaml", tmp_path).joints
+    assert (turn.lower, turn.upper, turn.max_velocity) == pytest.approx((lower, upper, velocity))
+
+
+def test_a_follower_that_leaves_its_leader_no_room_is_refused(tmp_path: Path) -> None:
+    follows = '<mimic joint="turn" offset="5"/>' + REACH
+    (tmp_path / "lift.urdf").write_text(URDF.replace(REACH, follows), encoding="utf-8")
+    (tmp_path / "lift.yaml").write_text("robot: lift\ntitle: A lift\nmodel: lift.urdf\n")
+    with pytest.raises(InputError, match="joint 'reach' follows 'turn', but keeping to both their ranges"):
+        load_robot("lift.yaml", tmp_path)
+
+
+@pytest.mark.parametrize(
     ("line", "said"),
     [
         ("hoem: {turn: 1}", "4: hoem: is no field here; did you mean home?"),
@@ -99,6 +131,7 @@ def test_what_a_robot_file_gets_wrong_is_refused_at_its_line(line: str, said: st
     ("joint", "said"),
     [
         ('<joint name="reach" type="slide"/>', "joint 'reach': a slide without a range; give range="),
+        ('<joint name="turn" range="-1e9 1e9"/>', "joint 'turn': -1.74533e+07 rad is more than 10 turns"),
         ("<joint/>", "the joint of body 'arm' has no name; give it one"),
         ("", "it has nothing that moves"),
     ],
