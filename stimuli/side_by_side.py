@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -16,19 +17,22 @@ from stimuli.video import write_video
 WIDTH = 640  # pixels of each clip at most
 COLUMNS = 3
 LABEL = 36  # pixels above each clip
+INDENT = 12  # pixels on either side of a label
+FONT = ImageFont.load_default(20)
 
 
 def side_by_side(manifest: Manifest, folder: Path, stimuli: Sequence[str], out: Path) -> Path:
-    """Write a clip of these stimuli starting together, each under its id; one that ends holds its end."""
+    """Write a clip of these stimuli starting together, each below its id; one that ends holds its end."""
     clips = [manifest.clips[id_] for id_ in stimuli]
     columns = min(COLUMNS, len(clips))
     rows = -(-len(clips) // columns)
     width = min(WIDTH, clips[0].width) // 2 * 2
     height = round(width * clips[0].height / clips[0].width / 2) * 2
-    sheet = Image.new("RGB", (columns * width, rows * (height + LABEL)), "white")
-    corners = [(k % columns * width, k // columns * (height + LABEL)) for k in range(len(clips))]
+    cell = max(width, *(2 * math.ceil(FONT.getlength(id_) / 2 + INDENT) for id_ in stimuli))
+    sheet = Image.new("RGB", (columns * cell, rows * (height + LABEL)), "white")
+    corners = [(k % columns * cell, k // columns * (height + LABEL)) for k in range(len(clips))]
     for (left, top), id_ in zip(corners, stimuli, strict=True):
-        ImageDraw.Draw(sheet).text((left + 12, top + 6), id_, "black", ImageFont.load_default(20))
+        ImageDraw.Draw(sheet).text((left + INDENT, top + 6), id_, "black", FONT)
 
     def frames() -> Iterator[NDArray[np.uint8]]:
         running = [_frames(folder / clip.file) for clip in clips]

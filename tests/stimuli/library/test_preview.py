@@ -65,12 +65,16 @@ def test_stimuli_named_get_poster_curves_and_a_comparison(
     with av.open(str(tmp_path / "neutral-slow.mp4")) as film:
         frames = [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
     assert len(frames) == clips[0].clips["slow"].frames
-    assert frames[0].shape == (64 + 36, 2 * 64, 3)
+    height, width, _ = frames[0].shape
+    cell = width // 2
+    assert height == 64 + 36 and cell > 64, "the longer name is wider than its clip"
     left, right = (
         np.abs(frames[-1][40:, half].astype(int) - frames[-4][40:, half]).max()
-        for half in (slice(0, 64), slice(64, 128))
+        for half in (slice(0, cell), slice(cell, width))
     )
     assert left < right  # the quick one has ended and holds its last frame
+    written = np.flatnonzero((frames[0][:34] < 128).any(axis=(0, 2)))
+    assert np.diff(written).max() > 12, "the names do not run into each other"
 
 
 def test_the_curves_show_the_joints_that_move_demonstrated_and_made(
