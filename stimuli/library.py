@@ -51,7 +51,10 @@ def render_missing(
     sweep(folder)
     manifest = Manifest.load(folder)
     framing, specs = _framed(specs, robots, manifest.framing)
-    whole = {clip.spec_sha256: clip for clip in manifest.stimuli.values() if clip.is_whole(folder)}
+    known = {clip.spec_sha256: clip for clip in (*manifest.unused, *manifest.stimuli.values())}
+    wanted = {spec.sha256 for spec in specs}
+    unused = tuple(c for s, c in known.items() if s not in wanted and (folder / c.file).is_file())
+    whole = {s: known[s] for s in wanted if s in known and known[s].is_whole(folder)}
     missing = {spec.sha256: spec for spec in specs if spec.sha256 not in whole}
     told = progress or (lambda _: None)
     told(Progress(0, len(missing)))
@@ -60,6 +63,7 @@ def render_missing(
         return Manifest(
             stimuli={s.id: _as(s, whole[s.sha256], folder) for s in specs if s.sha256 in whole},
             framing=framing,
+            unused=unused,
         )
 
     done = 0

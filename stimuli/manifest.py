@@ -64,6 +64,7 @@ class Manifest(BaseModel):
 
     stimuli: Mapping[str, Clip] = Field(default_factory=dict)
     framing: Mapping[str, Framing] = Field(default_factory=dict)  # by robot
+    unused: tuple[Clip, ...] = ()  # that no stimulus has now; shown again if one is changed back
 
     @property
     def clips(self) -> Mapping[str, Clip]:

@@ -107,7 +107,7 @@ def test_rendering_elsewhere_gives_the_same_bytes(
     assert render_clip(study[1], pepper, tmp_path).file_sha256 == manifest.clips["slow"].file_sha256
 
 
-def test_a_damaged_clip_and_a_changed_stimulus_alone_are_rendered_again(
+def test_a_damaged_clip_and_a_changed_stimulus_alone_are_rendered_again_and_none_changed_back(
     rendered: Rendered,
     study: list[StimulusSpec],
     pepper: Robot,
@@ -124,6 +124,12 @@ def test_a_damaged_clip_and_a_changed_stimulus_alone_are_rendered_again(
     assert {p.stimulus for p in told} == {None, "neutral", "slow"}
     assert after.clips["neutral"].file_sha256 == manifest.clips["neutral"].file_sha256
     assert after.clips["slow"].file != manifest.clips["slow"].file
+    told.clear()
+    back = render_missing(study, {"pepper": pepper}, tmp_path, workers=1, progress=told.append)
+    assert {p.stimulus for p in told} == {None} and back.clips == manifest.clips, "what is there is used"
+    (tmp_path / after.clips["slow"].file).unlink()
+    render_missing(study, {"pepper": pepper}, tmp_path)
+    assert Manifest.load(tmp_path).unused == ()
 
 
 def test_auto_framing_is_decided_once_for_the_whole_study(
