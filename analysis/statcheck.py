@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from decimal import Decimal
+from itertools import product
 from pathlib import Path
 
 from scipy.special import chdtrc, fdtrc, ndtr, stdtr
@@ -123,7 +124,7 @@ def check_text(text: str, alpha: float = 0.05) -> list[Checked]:
 def _each(text: str, alpha: float) -> Iterator[Checked]:
     for match in REPORTED.finditer(text):
         symbol = SYMBOLS.get(match["symbol"][0], match["symbol"])
-        df = [float(_decimal(number)) for number in (match["df"] or "").split(",") if number.strip()]
+        df = [_decimal(number) for number in (match["df"] or "").split(",") if number.strip()]
         if (
             len(df) >= NEEDED[symbol]
             and 0 <= _p_value(match["p"]) <= 1
@@ -132,12 +133,11 @@ def _each(text: str, alpha: float) -> Iterator[Checked]:
             yield _check(match, symbol, df, text, alpha)
 
 
-def _check(match: re.Match[str], symbol: str, df: list[float], text: str, alpha: float) -> Checked:
+def _check(match: re.Match[str], symbol: str, df: list[Decimal], text: str, alpha: float) -> Checked:
     value, p = _decimal(match["value"]), _p_value(match["p"])
-    half = Decimal(5).scaleb(-_places(value) - 1)
-    edges = (max(abs(value) - half, Decimal(0)), abs(value) + half)
-    allowed = sorted(TAILS[symbol](float(edge), df) for edge in edges)
-    ranges = list(_readings(match, (allowed[0], allowed[1]), text, sided=symbol != "F" or df[0] == 1))
+    corners = product(_rounded(abs(value)), *(_rounded(one) if _places(one) else (float(one),) for one in df))
+    allowed = sorted(TAILS[symbol](edge, [*dfs]) for edge, *dfs in corners)
+    ranges = list(_readings(match, (allowed[0], allowed[-1]), text, sided=symbol != "F" or df[0] == 1))
     consistent = any(_agrees(match["sign"], p, *between) for between in ranges)
     if not consistent and _is_corrected(match, text):
         consistent = match["sign"] not in "<≤" and float(p) > ranges[0][0]
@@ -191,6 +191,12 @@ def _rest_of_sentence(text: str, start: int) -> str:
 
 def _decimal(text: str) -> Decimal:
     return Decimal(re.sub(f"[{MINUS}]", "-", text.strip()).replace(",", "."))
+
+
+def _rounded(printed: Decimal) -> tuple[float, float]:
+    """The least and the greatest number that is printed so."""
+    half = Decimal(5).scaleb(-_places(printed) - 1)
+    return float(max(printed - half, Decimal(0))), float(printed + half)
 
 
 def _p_value(text: str) -> Decimal:

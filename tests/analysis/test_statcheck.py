@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from analysis.apa import t_sentence
 from analysis.statcheck import check_file, check_text
+from analysis.statistics.one_sample_t import METHOD
 from analysis.statistics.student_t import student_t
-from analysis.statistics.t_test import Alternative
+from analysis.statistics.t_test import Alternative, Contrast, TTest, t_test
 from stimuli.errors import InputError
 from tests.analysis.statistics.test_t_tests import choices, ratings
 
@@ -37,6 +38,7 @@ GOOD = [  # R: 2 * pt(-|t|, df), pf(F, df1, df2, lower.tail = FALSE), pchisq(…
     "t(66) = 2.26, p = .014 (one-tailed)",
     "t(66) = −2.26, p = .986, one-sided",
     "t(59.88) = 18.08, p < .001",
+    "t(2.05) = 2.05, p = .086, one-sided",  # df of 2.046 print as 2.05 too
     "F(2, 30) = 3.32, p = .050",
     "F(2,30)=3.32, p=.05",
     "F(1, 28) = 4.20, ηp² = .13, p = .050",
@@ -124,6 +126,23 @@ def test_one_sided_tests_announced_elsewhere_are_allowed_for() -> None:
 def test_our_sentences_pass_the_check(first: list[int], second: list[int], alternative: Alternative) -> None:
     sentence = t_sentence(student_t(first, second, alternative), None, 0.05)
     (checked,) = check_text(f"We found: {sentence}.")
+    assert checked.consistent and not checked.decision_error
+
+
+found = st.builds(
+    lambda t, df, alternative: t_test(METHOD, Contrast((9,), t, 1, df, 1), 0, alternative),
+    st.floats(-3, 3) | st.floats(-60, 60),
+    st.integers(1, 5000).map(float) | st.floats(1, 500),
+    st.sampled_from(["greater", "less", "two-sided"]),
+)
+
+
+@given(found, st.none() | st.floats(1, 40), st.sampled_from([0.05, 0.0167]))
+def test_whatever_was_found_is_read_back(found: TTest, tests: float | None, alpha: float) -> None:
+    assert found.p is not None
+    adjusted = None if tests is None else min(1.0, tests * found.p)
+    sentence = t_sentence(found, adjusted, alpha, "Holm-adjusted")
+    (checked,) = check_text(f"We found: {sentence}.", alpha)
     assert checked.consistent and not checked.decision_error
 
 
