@@ -11,14 +11,22 @@ from dataclasses import dataclass
 from pydantic_core import to_json
 from sqlalchemy import Engine
 
+from stimuli.errors import InputError
+
 
 @dataclass(frozen=True)
 class Database:
     """An open database, and what each kind does in a way of its own."""
 
     engine: Engine
-    held: Callable[[], AbstractContextManager[object]]  # by this server alone, or InputError says by whom
+    held: Callable[
+        [], AbstractContextManager[object]
+    ]  # by this server alone, or ServedByAnotherError says by whom
     purge: Callable[[], None]  # leave no trace of rows that were deleted
+
+
+class ServedByAnotherError(InputError):
+    """Another server holds the database."""
 
 
 def holder() -> str:

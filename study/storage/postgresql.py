@@ -13,7 +13,7 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event, text
 from sqlalchemy.exc import OperationalError
 
 from stimuli.errors import InputError
-from study.storage.database import Database, as_json, holder
+from study.storage.database import Database, ServedByAnotherError, as_json, holder
 
 LOCK = 0x5354554459  # "STUDY"
 HOLDER = text(
@@ -67,7 +67,7 @@ class Lock:
             self._let_go()
 
     def keep(self) -> None:
-        """See to it that what is to be held is; InputError says who has taken it meanwhile."""
+        """See to it that what is to be held is; ServedByAnotherError says who has taken it meanwhile."""
         if not self._wanted:
             return
         try:
@@ -85,7 +85,7 @@ class Lock:
         if not connection.execute(text("SELECT pg_try_advisory_lock(:lock)"), name).scalar():
             by = connection.execute(HOLDER).scalar()
             connection.close()
-            raise InputError(f"{self._engine.url}: is being served by {by}. Stop that one first.")
+            raise ServedByAnotherError(f"{self._engine.url}: is being served by {by}. Stop that one first.")
         self._connection = connection
 
     def _let_go(self) -> None:

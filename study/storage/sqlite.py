@@ -16,8 +16,7 @@ from sqlite3 import Connection as SQLiteConnection
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event
 
-from stimuli.errors import InputError
-from study.storage.database import Database, as_json, holder
+from study.storage.database import Database, ServedByAnotherError, as_json, holder
 
 PRAGMAS = {
     "journal_mode": "WAL",
@@ -61,7 +60,7 @@ def held(file: Path) -> Iterator[None]:
         except OSError as err:
             lock.seek(0)
             message = f"{file}: is being served by {lock.read()}. Stop that one first, or use other --data."
-            raise InputError(message) from err
+            raise ServedByAnotherError(message) from err
         lock.truncate(0)
         lock.write(holder())
         lock.flush()

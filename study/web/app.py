@@ -10,7 +10,7 @@ from fastapi.responses import FileResponse, JSONResponse, Response
 from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
 from starlette.exceptions import HTTPException
 
-from stimuli.errors import InputError
+from study.storage.database import ServedByAnotherError
 from study.web import entry, experimenter, participant
 from study.web.language import load_language
 from study.web.limits import Limits
@@ -122,8 +122,10 @@ def create_app(site: Site) -> FastAPI:
         return await say_what_went_wrong(request, HTTPException(400, "cannot be stored"))
 
     @app.exception_handler(DBAPIError)
-    @app.exception_handler(InputError)
-    async def say_that_nothing_can_be_stored(request: Request, fault: DBAPIError | InputError) -> Response:
+    @app.exception_handler(ServedByAnotherError)
+    async def say_that_nothing_can_be_stored(
+        request: Request, fault: DBAPIError | ServedByAnotherError
+    ) -> Response:
         """The disk is full, the database away or served by another: browsers send it again."""
         logger.error("Nothing can be stored: %s", fault.orig if isinstance(fault, DBAPIError) else fault)
         site.store.forget()

@@ -8,7 +8,6 @@ import tempfile
 import threading
 from collections.abc import AsyncIterator
 from datetime import datetime
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -20,6 +19,7 @@ from markupsafe import Markup
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
+from stimuli.errors import InputError
 from study.export import codebook, responses_csv, responses_json
 from study.participants import Contact, new_participant, new_personal_code, token_of_code
 from study.storage.backups import copy_database
@@ -28,7 +28,7 @@ from study.web.credentials import LOGIN_LASTS, Role
 from study.web.language import load_language
 from study.web.limits import count_wrong_guess, require_guesses_left
 from study.web.overview import TROUBLES, may_see_report, overview
-from study.web.pages import fragment, render, url
+from study.web.pages import fill, render
 from study.web.site import site_of
 from study.web.visitor import language_of, speaking, to
 
@@ -232,8 +232,18 @@ def download_report(request: Request) -> Response:
         table, out = Path(scratch) / "responses.csv", Path(scratch) / "report"
         content = responses_csv(site.store, kind=site.kind, clips=site.clip_hashes)
         table.write_text(content, encoding="utf-8", newline="")
-        site.analyse(table, out)
+        try:
+            site.analyse(table, out)
+        except InputError as fault:  # nobody has answered yet
+            return _no_report(request, str(fault).replace(f"{scratch}/", ""))
         return _download((out / "report.html").read_bytes(), "text/html; charset=utf-8", "report.html")
+
+
+def _no_report(request: Request, why: str) -> Response:
+    language = language_of(request)
+    say = load_language(language).text
+    heading = say("There is no report yet")
+    return render(request, "message.html", language=language, heading=heading, message=why, status=404)
 
 
 def _download(content: str | bytes, kind: str, name: str) -> Response:
@@ -269,7 +279,8 @@ def _live_part(request: Request) -> str:
         here = when.astimezone()
         return f"{format_skeleton('MMMd', here, locale=locale)}, {format_time(here, 'short', locale=locale)}"
 
-    return fragment(
+    return fill(
+        request.app,
         "overview.html",
         language=language,
         seen=seen,
@@ -280,5 +291,4 @@ def _live_part(request: Request) -> str:
         has_report=site.analyse is not None,
         report_sealed=not may_see_report(site, seen),
         form_token=site.credentials.form_token(require_login(request)),
-        url=partial(url, request.app),
     )

@@ -74,12 +74,6 @@ def ask(
     )
 
 
-def fragment(template: str, *, language: str, **values: Any) -> str:
-    """A part of a page."""
-    spoken = load_language(language)
-    return _template(template).render({"_": spoken.text, "language": language} | values)
-
-
 @lru_cache(maxsize=2048)
 def url(app: FastAPI, page: str, /, **parts: str) -> str:
     """The address of a page."""

@@ -13,6 +13,7 @@ import httpx
 import pytest
 import segno
 
+from stimuli.errors import InputError
 from study.simulation import take_part
 from study.storage import open_store
 from study.web.app import create_app
@@ -144,6 +145,22 @@ def test_a_report_that_may_be_seen_is_made_of_the_answers_so_far(rehearsed: Site
     ):
         client.post("/experimenter/login", data={"password": PASSWORD})
         assert client.get("/experimenter/report.html").text == "33 lines", "a header, and 16 answers of each"
+
+
+def test_a_report_of_no_answers_is_not_there_yet(site: Site) -> None:
+    def analyse(table: Path, _: Path) -> None:
+        raise InputError(f"{table}: no answers")
+
+    allowed = site.protocol.participants.model_copy(update={"peeking": True})
+    protocol = site.protocol.model_copy(update={"participants": allowed})
+    with (
+        running(create_app(replace(site, protocol=protocol, analyse=analyse))) as address,
+        httpx.Client(base_url=address, follow_redirects=True) as client,
+    ):
+        client.post("/experimenter/login", data={"password": PASSWORD})
+        told = client.get("/experimenter/report.html")
+    assert told.status_code == 404
+    assert "There is no report yet" in told.text and "<p>responses.csv: no answers</p>" in told.text
 
 
 def test_a_study_is_paused_from_the_page(experimenter: httpx.Client, rehearsed: Site) -> None:

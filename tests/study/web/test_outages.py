@@ -101,6 +101,17 @@ def test_a_postgresql_that_is_away_for_a_while_is_found_and_held_again(
     assert "Traceback" not in caplog.text
 
 
+def test_a_fault_of_ours_is_not_called_one_of_the_disk(site: Site) -> None:
+    app = create_app(site)
+
+    @app.get("/fault")
+    def fault() -> None:
+        raise InputError("joint 'Elbow' is not known")
+
+    with running(app) as address:
+        assert httpx.get(f"{address}/fault").status_code == 500
+
+
 def test_what_postgresql_cannot_keep_is_refused(postgresql, site: Site) -> None:
     store = open_store(postgresql.new_database())
     with (
