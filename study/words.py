@@ -9,7 +9,7 @@ from study.power import family_size
 from study.protocol import Exclusions, Hypothesis, Order, Part, Participants, Protocol
 from study.protocol.parts import BETWEEN, could_be_meant, series_of
 from study.protocol.plan import TEST_NAMES
-from study.protocol.protocol import Video
+from study.protocol.video import Video
 from study.questions import Question
 from study.questions.scale import Scale
 

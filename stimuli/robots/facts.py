@@ -6,6 +6,7 @@ The body's measures are free in form; the robot's own module reads them.
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable, Mapping
 from functools import cache
 from importlib.resources import files
@@ -99,6 +100,9 @@ def assembled(
 ) -> Robot:
     """The packaged robot of that name: its facts, and the function that builds its body."""
     facts = read_facts(name)
+    own = sorted(
+        f"robots/{file.name}" for file in files("stimuli.robots").iterdir() if _is_of(file.name, name)
+    )
     return Robot(
         name=name,
         title=facts.title,
@@ -110,8 +114,13 @@ def assembled(
         head=facts.head,
         base_xyz=facts.base.xyz,
         sources=facts.sources,
-        sha256=sources_sha256(f"robots/{name}.yaml", f"robots/{name}.py", *LOOK),
+        sha256=sources_sha256(*own, *LOOK),
     )
+
+
+def _is_of(file: str, robot: str) -> bool:
+    """Whether a packaged file is one of a robot's own: `pepper.yaml`, `pepper.py`, `pepper_arms.py`."""
+    return re.fullmatch(rf"{robot}(_\w+)?\.(py|yaml)", file) is not None
 
 
 def sources_sha256(*names: str) -> str:

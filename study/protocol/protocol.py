@@ -12,13 +12,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, PrivateAttr, field_validator, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
 
 from stimuli.dmp import Learning
 from stimuli.principles import Modulation
 from stimuli.robots.belongings import files_of_robot
 from stimuli.robots.robot_file import ROBOT_FILES
-from stimuli.spec import Camera
 from study.protocol.amendments import Amendment
 from study.protocol.modulations import read_levels, read_modulations
 from study.protocol.pairs import Pair, paired
@@ -45,46 +44,12 @@ from study.protocol.texts import (
     shipped_demographics,
     without_gaps,
 )
+from study.protocol.video import Video
 from study.questions import Asked
 from study.text import Text
-from study.written import A_LANGUAGE, A_SIZE, Location, Seconds, Written, wrong
+from study.written import A_LANGUAGE, Location, Written
 
 Language = Annotated[str, Field(pattern=A_LANGUAGE)]
-
-
-class Video(Written):
-    """Size, timing and framing, the same for every clip of a study."""
-
-    size: str = Field("1280x720", pattern=A_SIZE)
-    fps: int = Field(30, ge=1, le=120)
-    camera: Camera = "auto"
-    lead_in: Seconds = 0.5
-    hold: Seconds = 0.5
-    replays: int | None = Field(None, ge=0)  # of a clip watched in full; any number unless told
-    description: Text | None = None  # read out to who cannot see the clips; must not tell the condition
-
-    @field_validator("size")
-    @classmethod
-    def _can_be_filmed(cls, size: str) -> str:
-        width, height = map(int, size.split("x"))
-        if width % 2 or height % 2:
-            raise wrong("must have even sides, as the video format demands")
-        if not (16 <= width <= 7680 and 16 <= height <= 4320):
-            raise wrong("must be at least 16x16 and at most 7680x4320")
-        return size
-
-    @field_validator("lead_in", "hold")
-    @classmethod
-    def _is_waited_for(cls, seconds: float) -> float:
-        if seconds > 60:
-            raise wrong("must be at most 60 s")
-        return seconds
-
-    @property
-    def pixels(self) -> tuple[int, int]:
-        """Width and height."""
-        width, height = self.size.split("x")
-        return int(width), int(height)
 
 
 class WrittenLearning(Learning, Written):

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from stimuli.errors import InputError
 from stimuli.robots import ROBOTS, load_robot
-from stimuli.robots.facts import read_facts
+from stimuli.robots.facts import LOOK, read_facts, sources_sha256
 from stimuli.robots.model import Robot
 from stimuli.scene import pose
 
@@ -91,6 +91,11 @@ def test_two_robots_do_not_share_a_hash() -> None:
     hashes = [load_robot(name, HERE).sha256 for name in ROBOTS]
     assert len(set(hashes)) == len(hashes)
     assert all(len(value) == 64 for value in hashes)
+
+
+def test_a_hash_is_of_all_files_of_a_robot() -> None:
+    own = ("robots/pepper.py", "robots/pepper.yaml", "robots/pepper_arms.py")
+    assert load_robot("pepper", HERE).sha256 == sources_sha256(*own, *LOOK)
 
 
 def test_an_unknown_robot_is_answered_with_the_nearest_name() -> None:
