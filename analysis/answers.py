@@ -51,6 +51,12 @@ class Answers:
         """The answers as numbers, (participants, stimuli, items), NaN where there is none."""
         return np.array([*map(float, self.options), np.nan])[self.codes]
 
+    @cached_property
+    def mean(self) -> float | None:
+        """The mean of all ratings; None without any."""
+        there = self.ratings.T[~np.isnan(self.ratings.T)]
+        return float(there.mean()) if there.size else None
+
     def chose(self, option: str) -> FloatArray:
         """1 where that option was chosen, 0 where another was, NaN without answer; shaped as `codes`."""
         numbers = [float(candidate == option) for candidate in self.options]

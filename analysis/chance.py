@@ -11,19 +11,29 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from analysis.answers import Answers, FloatArray
 
 
 @dataclass(frozen=True)
 class Target:
-    """The ratings of a part, and which stimulus is judged on which item."""
+    """The answers of a part, which are numbers, and which stimulus is judged on which item."""
 
-    ratings: FloatArray  # (participants, stimuli, items), NaN where missing
-    scale: tuple[float, float]  # lowest and highest point
+    answers: Answers
     stimulus: int
     item: int
+
+    @property
+    def ratings(self) -> FloatArray:
+        """All ratings, (participants, stimuli, items), NaN where missing."""
+        return self.answers.ratings
+
+    @property
+    def scale(self) -> tuple[float, float]:
+        """Lowest and highest point."""
+        scale = self.answers.scale
+        assert scale is not None
+        return scale
 
     @property
     def on_target(self) -> FloatArray:
@@ -64,9 +74,8 @@ def midpoint(target: Target) -> Scores:
 
 def grand_mean(target: Target) -> Scores:
     """The rating against the mean of all ratings, taken as if it were known."""
-    ratings = target.ratings.T[~np.isnan(target.ratings.T)]
-    null = float(ratings.mean()) if ratings.size else sum(target.scale) / 2
-    return Scores(target.on_target, null=null, estimated=True)
+    mean = target.answers.mean
+    return Scores(target.on_target, null=sum(target.scale) / 2 if mean is None else mean, estimated=True)
 
 
 def other_stimuli(target: Target) -> Scores:

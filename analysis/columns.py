@@ -77,8 +77,8 @@ def time_span(path: Path, name: str = "answered_at") -> tuple[str, str] | None:
         return None
     place, span = header.index(name), set[bytes]()
     for fields in read_fields(path, len(header)):
-        stretches = zip(fields.starts[:, place].tolist(), fields.ends[:, place].tolist(), strict=True)
-        found = {fields.text[start:end] for start, end in stretches}
+        stretches = zip(fields.starts[:, place].tolist(), fields.lengths[:, place].tolist(), strict=True)
+        found = {fields.text[start : start + length] for start, length in stretches}
         span |= {moment for moment in found if MOMENT.match(moment)}
         span = {min(span), max(span)} if span else span
     return (min(span).decode(), max(span).decode()) if span else None
@@ -96,26 +96,28 @@ class _Gathered:
 
     def add(self, fields: Fields, below: int) -> None:
         """Add the rows of a block from the row `below` on."""
-        starts, ends = fields.starts[below:, self.place], fields.ends[below:, self.place]
-        words = _words(fields.text, starts, ends - starts)
-        first = _first_of_runs(fields.text, starts, ends - starts, words)
-        codes = self._codes(fields.text, starts[first], ends[first], words[first])
+        starts, lengths = fields.starts[below:, self.place], fields.lengths[below:, self.place]
+        words = _words(fields.text, starts, lengths)
+        first = _first_of_runs(fields.text, starts, lengths, words)
+        codes = self._codes(fields.text, starts[first], lengths[first], words[first])
         codes = codes.astype(np.min_scalar_type(len(self.values)))
         self.blocks.append(np.repeat(codes, np.diff(first, append=starts.size)))
 
-    def _codes(self, text: bytes, starts: Places, ends: Places, words: Words) -> Codes:
+    def _codes(self, text: bytes, starts: Places, lengths: Places, words: Words) -> Codes:
         """The code of each value, (values,); new values get the next ones, in the order of rows."""
-        spelling = self.spellings.numbers(text, starts, ends - starts, words)
+        spelling = self.spellings.numbers(text, starts, lengths, words)
         if (more := self.spellings.size - self.codes.size) > 0:
             self.codes = np.append(self.codes, np.full(more, -1, dtype=np.int32))
         codes: Codes = self.codes[spelling]
         if codes.min(initial=0) >= 0:
             return codes
         new = np.flatnonzero(codes < 0)
-        for place in np.sort(np.unique(spelling[new], return_index=True)[1]):
-            at = new[place]
-            self.codes[spelling[at]] = len(self.values)
-            self.values.append(text[starts[at] : ends[at]].decode().replace('""', '"'))
+        new = new[np.sort(np.unique(spelling[new], return_index=True)[1])]
+        self.codes[spelling[new]] = np.arange(len(self.values), len(self.values) + new.size)
+        stretches = zip(starts[new].tolist(), lengths[new].tolist(), strict=True)
+        self.values += [
+            text[start : start + length].decode().replace('""', '"') for start, length in stretches
+        ]
         return self.codes[spelling]
 
     def whole(self) -> Column:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
@@ -88,7 +89,9 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     line. Raises ResponsesError.
     """
     naming = Naming.of(protocol, columns or {})
-    rows = _read(path, protocol, naming)
+    with ThreadPoolExecutor(1) as meanwhile:
+        sha256 = meanwhile.submit(_sha256, path)
+        rows = _read(path, protocol, naming)
     if rows.number == 0:
         raise ResponsesError(f"{path}: holds no answers below its header")
     rows.refuse_two_spellings()
@@ -96,11 +99,9 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
     which = _question_of_each_row(rows, protocol, empty)
     rows.refuse_if((which >= 0) & (rows.person < 0), "has no participant")
     filled = [_fill(question, rows, which == q, naming) for q, question in enumerate(empty)]
-    with path.open("rb") as file:
-        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     return Responses(
         path=path,
-        sha256=sha256,
+        sha256=sha256.result(),
         participants=rows.participants,
         questions=tuple(question for question in filled if question.expected is None),
         checks=tuple(question for question in filled if question.expected is not None),
@@ -110,6 +111,11 @@ def read_responses(path: Path, protocol: Protocol, columns: Mapping[str, str] | 
         open=tuple(open_answers(rows, protocol)),
         answered=time_span(path),
     )
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _read(path: Path, protocol: Protocol, naming: Naming) -> Rows:
@@ -215,11 +221,11 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
 def _fill(question: Answers, rows: Rows, mine: NDArray[np.bool_], naming: Naming) -> Answers:
     """The question with the answers of its rows."""
     shape = (len(question.items), len(question.stimuli), len(question.participants))
-    items = rows.codes("item", {name: i for i, name in enumerate(question.items)})[mine]
-    stimuli = rows.codes("stimulus", {name: i for i, name in enumerate(question.stimuli)})[mine]
+    items = rows.codes("item", {name: i for i, name in enumerate(question.items)}, mine=mine)
+    stimuli = rows.codes("stimulus", {name: i for i, name in enumerate(question.stimuli)}, mine=mine)
     options = naming.options(question)
     written = {answer: option_of(answer, options) for answer in rows.names("response")}
-    answers = rows.codes("response", written, unknown=UNKNOWN)[mine]
+    answers = rows.codes("response", written, unknown=UNKNOWN, mine=mine)
     rows.refuse_if(
         among(mine, answers == UNKNOWN),
         lambda row: (

@@ -78,12 +78,12 @@ def _incomplete(responses: Responses) -> NDArray[np.bool_]:
     An earlier version of the study asked what somebody who took part in it answered.
     """
     unfinished = _nobody(responses)
-    began_with = np.array([responses.earlier.get(name, "") for name in responses.participants])
-    for version in np.unique(began_with):
-        mine = began_with == version
+    began_with = [responses.earlier.get(name, "") for name in responses.participants]
+    for version in sorted({*began_with}):
+        mine = np.array([began == version for began in began_with])
         for question in responses.questions:
-            there = question.codes[mine] >= 0
-            asked = there.any(axis=0) if version else np.ones(there.shape[1:], dtype=bool)  # stimuli, items
+            there = question.codes.T[..., mine].T >= 0
+            asked = np.any(there, axis=0) if version else np.ones(there.shape[1:], dtype=bool)  # stimuli, items
             judged = asked.any(axis=1)
             finished = (there | ~asked).all(axis=2)[:, judged].sum(axis=1)
             shown = judged.sum() if question.shown is None else min(question.shown, judged.sum())

@@ -30,11 +30,11 @@ class ResponsesError(InputError):
 
 @dataclass(frozen=True)
 class Fields:
-    """Some rows of a file: their text, and where in it each value starts and ends."""
+    """Some rows of a file: their text, where in it each value starts, and how long it is."""
 
     text: bytes  # UTF-8, and eight zero bytes at its end
     starts: Places  # (rows, columns)
-    ends: Places  # (rows, columns)
+    lengths: Places  # (rows, columns) bytes
 
 
 def delimiter(path: Path) -> str:
@@ -135,7 +135,7 @@ class _Block:
             self._refuse_stray_quotes()
             within = self.body[starts] == QUOTE
             starts, ends = starts + within, ends - within
-        return Fields(self.text + bytes(8), starts, ends)
+        return Fields(self.text + bytes(8), starts, ends - starts)
 
     def _without_blank_lines(self, starts: Places, columns: int) -> tuple[Places, Places]:
         """Starts and ends of the values of each row, (rows, columns)."""

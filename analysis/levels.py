@@ -74,19 +74,14 @@ class Comparison:
 
 def comparisons(answers: Answers, comparison: Comparison, judging: Judging) -> dict[str, Compared]:
     """Compare the levels of every principle; the family is the principles."""
-    drafts = {name: _samples(answers, comparison, stimuli) for name, stimuli in comparison.pairs.items()}
-    tested = {name: _Tests(first, second, comparison, judging) for name, (first, second) in drafts.items()}
+    values = answers.on(comparison.item, comparison.outcome)
+    of = {stimulus: values[:, place] for place, stimulus in enumerate(answers.stimuli)}
+    tested = {
+        name: _Tests(of[first], of[second], comparison, judging)
+        for name, (first, second) in comparison.pairs.items()
+    }
     verdicts = judge(judging, {name: tests.deciding(judging.test) for name, tests in tested.items()})
     return {name: tests.result(name, verdicts[name]) for name, tests in tested.items()}
-
-
-def _samples(
-    answers: Answers, comparison: Comparison, stimuli: tuple[str, str]
-) -> tuple[FloatArray, FloatArray]:
-    """The answers to both stimuli as numbers, aligned by participant, NaN where missing."""
-    values = answers.on(comparison.item, comparison.outcome)
-    first, second = (values[:, answers.stimuli.index(stimulus)] for stimulus in stimuli)
-    return first, second
 
 
 class _Tests:

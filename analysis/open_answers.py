@@ -49,6 +49,8 @@ def open_answers(rows: Rows, protocol: Protocol) -> Iterator[OpenAnswers]:
     """
     for part, stimulus, question in _asked(protocol):
         for item in question.items:
+            if stimulus not in rows.names("stimulus") or item not in rows.names("item"):
+                continue
             mine = (rows.codes("stimulus", {stimulus: 0}) == 0) & (rows.codes("item", {item: 0}) == 0)
             mine &= rows.person >= 0
             if "part" in rows.columns:

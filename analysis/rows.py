@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
+from types import EllipsisType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,10 +52,17 @@ class Rows:
         """Every value that occurs in a column."""
         return self.columns[column].values
 
-    def codes(self, column: str, places: Mapping[str, int], unknown: int = MISSING) -> NDArray[np.int32]:
-        """The place of each row's value, (rows,)."""
+    def codes(
+        self,
+        column: str,
+        places: Mapping[str, int],
+        unknown: int = MISSING,
+        *,
+        mine: NDArray[np.bool_] | EllipsisType = ...,
+    ) -> NDArray[np.int32]:
+        """The place of each row's value, (rows,), or of only those of `mine`."""
         ours = np.array([places.get(name, unknown) for name in self.names(column)], dtype=np.int32)
-        return ours[self.columns[column].codes]
+        return ours.take(self.columns[column].codes[mine])
 
     def value(self, column: str, row: int) -> str:
         """What stands in a column of one row."""
@@ -96,8 +104,7 @@ class Rows:
         """Refuse the file if 1, 01, 1.0 and "1 " stand beside each other: one participant, or several?"""
         spelled: dict[str, str] = {}
         for name in self.participants:
-            plain = PADDING.sub("", name.strip())
-            first = spelled.setdefault(plain, name)
+            first = spelled.setdefault(_unpadded(name), name)
             if first != name:
                 self.refuse_if(
                     self.codes("participant", {name: 1}) == 1,
@@ -112,6 +119,12 @@ class Rows:
             records = np.unique(np.flatnonzero(bad) // self.per_record).size
             more = f" ({records} rows like this)" if records > 1 else ""
             raise ResponsesError(f"{self.path}:{self.line(row)}: {said}{more}")
+
+
+def _unpadded(name: str) -> str:
+    """A name as the number that it may be, written plainly."""
+    bare = name.strip()
+    return PADDING.sub("", bare) if "0" in (bare[0], bare[-1]) else bare
 
 
 def among(mine: NDArray[np.bool_], bad: NDArray[np.bool_]) -> NDArray[np.bool_]:

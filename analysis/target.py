@@ -102,10 +102,8 @@ def recognition(
     answers: Answers, targets: Mapping[str, str], definition: Definition, judging: Judging
 ) -> dict[str, Recognised]:
     """Test each stimulus's target item against chance; `targets` maps stimuli to items."""
-    scale = answers.scale
-    assert scale is not None
     places = {
-        stimulus: Target(answers.ratings, scale, answers.stimuli.index(stimulus), answers.items.index(item))
+        stimulus: Target(answers, answers.stimuli.index(stimulus), answers.items.index(item))
         for stimulus, item in targets.items()
     }
     main = {s: against_chance(definition, target, judging.alternative) for s, target in places.items()}

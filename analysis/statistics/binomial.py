@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import betainc, gammaln, xlog1py, xlogy
 
 from analysis.statistics.asked import refuse_impossible_count
@@ -60,7 +61,7 @@ def binomial_probability(k: int, n: int, null: float, alternative: Alternative) 
         return at_least(k, n, null)
     if alternative == "less":
         return at_least(n - k, n, 1 - null)
-    chances = outcome_probabilities(n, null)
+    chances = outcome_probabilities(np.arange(n + 1), n, null)
     return float(min(1.0, chances[chances <= chances[k] * (1 + 1e-7)].sum()))
 
 
@@ -69,11 +70,9 @@ def at_least(k: int, n: int, share: float) -> float:
     return 1.0 if k <= 0 else float(betainc(k, n - k + 1, share))
 
 
-def outcome_probabilities(n: int, share: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """P(X = 0), …, P(X = n)."""
-    k = np.arange(n + 1)
-    ways = gammaln(n + 1) - gammaln(k + 1) - gammaln(n - k + 1)
-    probabilities: np.ndarray[tuple[int], np.dtype[np.float64]] = np.exp(
-        ways + xlogy(k, share) + xlog1py(n - k, -share)
-    )
+def outcome_probabilities(k: ArrayLike, n: int, share: float) -> NDArray[np.float64]:
+    """P(X = k) of each k for X binomial."""
+    yes = np.asarray(k)
+    ways = gammaln(n + 1) - gammaln(yes + 1) - gammaln(n - yes + 1)
+    probabilities: NDArray[np.float64] = np.exp(ways + xlogy(yes, share) + xlog1py(n - yes, -share))
     return probabilities

@@ -71,7 +71,7 @@ def mcnemar_counts(b: int, c: int, *, both: int = 0, neither: int = 0) -> McNema
         return McNemar(n, b, c, both, neither, 1.0, 1.0, 1.0, 0.5, None, None, difference,
                        reason="no discordant pairs: odds ratio undefined")  # fmt: skip
     one_sided = at_least(b, discordant, 0.5)
-    mid_one_sided = one_sided - 0.5 * float(outcome_probabilities(discordant, 0.5)[b])
+    mid_one_sided = one_sided - 0.5 * float(outcome_probabilities(b, discordant, 0.5))
     share = clopper_pearson(b, discordant)
     assert share is not None
     return McNemar(
