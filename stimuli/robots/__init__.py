@@ -1,6 +1,7 @@
 """Robots, one file of code and one of facts each: this folder is the list.
 
-A packaged robot `name` is `name.yaml` (its facts) beside `name.py` with `load() -> Robot`, and any `name_….py`.
+A packaged robot `name` is `name.yaml` (its facts) beside `name.py` with `load() -> Robot`; what that is split
+over is `name_….py`.
 """
 
 from __future__ import annotations
