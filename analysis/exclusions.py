@@ -83,7 +83,8 @@ def _incomplete(responses: Responses) -> NDArray[np.bool_]:
         mine = np.array([began == version for began in began_with])
         for question in responses.questions:
             there = question.codes.T[..., mine].T >= 0
-            asked = np.any(there, axis=0) if version else np.ones(there.shape[1:], dtype=bool)  # stimuli, items
+            everything = np.ones(there.shape[1:], dtype=bool)  # stimuli, items
+            asked = np.any(there, axis=0) if version else everything
             judged = asked.any(axis=1)
             finished = (there | ~asked).all(axis=2)[:, judged].sum(axis=1)
             shown = judged.sum() if question.shown is None else min(question.shown, judged.sum())
