@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,9 +83,8 @@ def _incomplete(responses: Responses) -> NDArray[np.bool_]:
     for version in sorted({*began_with}):
         mine = np.array([began == version for began in began_with])
         for question in responses.questions:
-            there = question.codes.T[..., mine].T >= 0
-            everything = np.ones(there.shape[1:], dtype=bool)  # stimuli, items
-            asked = np.any(there, axis=0) if version else everything
+            there: Any = question.codes.T[..., mine].T >= 0
+            asked = there.any(axis=0) if version else np.ones(there.shape[1:], dtype=bool)  # stimuli, items
             judged = asked.any(axis=1)
             finished = (there | ~asked).all(axis=2)[:, judged].sum(axis=1)
             shown = judged.sum() if question.shown is None else min(question.shown, judged.sum())
