@@ -88,7 +88,11 @@ def read_table(path: Path, n: int) -> PrintedTable:
         kind=kind,
         rows=tuple(rows),
         whole=kind != "means" and len(cells) > 1 and _mostly_whole(rows, n if kind == "counts" else 1),
-        unchecked=tuple(header[place] for place in numeric if place not in cells),
+        unchecked=tuple(
+            header[place]
+            for place in numeric
+            if place not in cells and not (means and header[place].lower() in SPREADS | SIZES)
+        ),
     )
 
 

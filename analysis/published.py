@@ -1,8 +1,6 @@
 """Published numbers as data, and whether they can be true.
 
-A share of n people is k/n for a whole k, so most printed shares are impossible for a wrong n or a misprint:
-the GRIM test (Brown & Heathers 2017, Soc. Psychol. Personal. Sci. 8). The same holds for means of
-whole-number ratings, and counts must add up.
+Shares, means and standard deviations must come from whole answers (`analysis.grim`), and counts must add up.
 """
 
 from __future__ import annotations
@@ -10,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from fractions import Fraction
-from math import floor
 from pathlib import Path
 
 import numpy as np
 
 from analysis.apa import probability, t_sentence
+from analysis.grim import counts_behind, sd_is_possible
 from analysis.printed_table import Kind, PrintedRow, PrintedTable, read_table
 from analysis.statistics.fisher import Fisher, fisher
 from analysis.statistics.samples import Moments
@@ -91,7 +88,8 @@ class Verification:
 
     n: int
     kind: Kind
-    cells: int  # numbers checked
+    cells: int  # shares, counts or means checked
+    spreads: int  # standard deviations checked beside means
     unchecked: tuple[str, ...]  # columns that hold nothing to check
     faults: tuple[Fault, ...]
     recomputed: tuple[Recomputed, ...]
@@ -100,10 +98,11 @@ class Verification:
     def __str__(self) -> str:
         faults = [f"{len(self.faults)} cannot be:", *(f"  {fault}" for fault in self.faults)]
         tests = [f"  {one}" for one in self.recomputed]
+        spreads = ", and their standard deviations" if self.spreads else ""
         skipped = f" Not checked: {', '.join(self.unchecked)}." if self.unchecked else ""
         return "\n".join(
             [
-                f"{self.cells} printed {self.kind} checked against n = {self.n}.{skipped}",
+                f"{self.cells} printed {self.kind} checked against n = {self.n}{spreads}.{skipped}",
                 *(faults if self.faults else ["All of them are possible."]),
                 *(
                     ["What follows from the possible rows (independent groups, one-sided):", *tests]
@@ -125,7 +124,6 @@ class Verification:
 
 
 SIZES_SAID = 12
-FLOAT_DECIMALS = 15  # what a computer writes beyond them is its rounding
 
 
 def verify(table: Path, n: int, *, items: int = 1) -> Verification:
@@ -136,11 +134,11 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
     How a table is written: `analysis.printed_layout`. Raises InputError where it cannot be read.
     """
     printed = read_table(table, n)
-    per_person = items if printed.kind == "means" else 1
+    items = items if printed.kind == "means" else 1
     faults = [
         fault
         for row in printed.rows
-        for fault in _faults(row, (row.n or n) * per_person, printed.kind, whole=printed.whole)
+        for fault in _faults(row, row.n or n, printed.kind, items=items, whole=printed.whole)
     ]
     bad = {(fault.line, fault.row) for fault in faults}
     good = [row for row in printed.rows if (row.line, row.name) not in bad]
@@ -148,6 +146,7 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
         n=n,
         kind=printed.kind,
         cells=sum(len(row.cells) for row in printed.rows),
+        spreads=sum(row.sd is not None for row in printed.rows),
         unchecked=printed.unchecked,
         faults=tuple(faults),
         recomputed=tuple(_recompute(good, n, printed)),
@@ -158,35 +157,25 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
             for size in range(2, 2 * n + 1)
             if good
             and size != n
-            and not any(_faults(row, size * per_person, printed.kind, whole=printed.whole) for row in good)
+            and not any(_faults(row, size, printed.kind, items=items, whole=printed.whole) for row in good)
         ),
     )
 
 
-def counts_behind(printed: Decimal, n: int) -> tuple[int, ...]:
-    """Every whole k for which k/n rounds to what is printed, a half rounding either way."""
-    half = Fraction(1, 2) / 10 ** min(_decimals(printed), FLOAT_DECIMALS)
-    value = Fraction(printed)
-    around = floor(value * n)
-    reach = floor(half * n) + 1
-    return tuple(k for k in range(around - reach, around + reach + 2) if abs(Fraction(k, n) - value) <= half)
-
-
-def _decimals(printed: Decimal) -> int:
-    exponent = printed.as_tuple().exponent
-    return max(0, -exponent) if isinstance(exponent, int) else 0
-
-
-def _faults(row: PrintedRow, n: int, kind: Kind, *, whole: bool) -> list[Fault]:
+def _faults(row: PrintedRow, n: int, kind: Kind, *, items: int, whole: bool) -> list[Fault]:
     """What is wrong with a row; cells are shares (of percentages the hundredth), counts or means."""
+    answers = n * items
     if kind == "counts":
         return _count_faults(row, n, whole=whole)
     if kind != "means" and (outside := [cell for cell in row.cells if not 0 <= cell <= 1]):
         return [Fault(row.line, row.name, f"{_said(outside[0], kind)} is no share: they lie between 0 and 1")]
-    if impossible := [cell for cell in row.cells if not counts_behind(cell, n)]:
+    if impossible := [cell for cell in row.cells if not counts_behind(cell, answers)]:
         what = "mean" if kind == "means" else "share"
-        return [Fault(row.line, row.name, f"{_said(cell, kind)} is no {what} of {n} answers")
+        return [Fault(row.line, row.name, f"{_said(cell, kind)} is no {what} of {answers} answers")
                 for cell in impossible]  # fmt: skip
+    if row.sd is not None and not sd_is_possible(row.sd, row.cells[0], n, items):
+        beside = f"{answers} whole answers with the mean {row.cells[0]}"
+        return [Fault(row.line, row.name, f"{row.sd} is no standard deviation (n − 1) of {beside}")]
     if whole and _whole(row, n) is None:
         total = _said(sum(row.cells, Decimal(0)), kind)
         return [Fault(row.line, row.name, f"shares add up to {total}, and no counts of {n} give them")]

@@ -3,12 +3,14 @@ from __future__ import annotations
 from decimal import Decimal
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from analysis.apa import share
-from analysis.published import HIGHER, TABLE_II, N, Verification, counts_behind, verify
+from analysis.grim import counts_behind, sd_is_possible
+from analysis.published import HIGHER, TABLE_II, N, Verification, verify
 from analysis.statcheck import check_text
 from stimuli.errors import InputError
 
@@ -116,29 +118,34 @@ def test_means_are_of_as_many_answers_as_there_are_items(tmp_path: Path) -> None
     text = "emotion,mean,sd\njoy,3.88,1.07\nfear,3.87,1.01\n"
     assert [fault.line for fault in check(tmp_path, text, 34).faults] == [3]
     found = check(tmp_path, text, 34, items=50)
-    assert found.faults == () and found.unchecked == ("sd",) and 35 in (found.other_sizes or ())
+    assert (
+        found.faults == ()
+        and found.unchecked == ()
+        and found.spreads == 2
+        and 35 in (found.other_sizes or ())
+    )
 
 
-# R: s <- sqrt((1.07^2 + .96^2) / 2); t <- (3.88 - 3.21) / (s * sqrt(2 / 34)); pt(t, 66, lower.tail = FALSE)
+# R: s <- sqrt((1.07^2 + .95^2) / 2); t <- (3.88 - 3.21) / (s * sqrt(2 / 34)); pt(t, 66, lower.tail = FALSE)
 @pytest.mark.parametrize(
     "text",
     [
-        "item,level,M,SD\njoy,high,3.88,1.07\njoy,low,3.21,0.96\n",
-        "item,level,M,SD,n\njoy,high,3.88,1.07,34\njoy,low,3.21,0.96,34\n",
-        "level,joy_M,joy_SD,fear_M,fear_SD\nhigh,3.88,1.07,3.88,1.07\nlow,3.21,0.96,3.21,0.96\n",
+        "item,level,M,SD\njoy,high,3.88,1.07\njoy,low,3.21,0.95\n",
+        "item,level,M,SD,n\njoy,high,3.88,1.07,34\njoy,low,3.21,0.95,34\n",
+        "level,joy_M,joy_SD,fear_M,fear_SD\nhigh,3.88,1.07,3.88,1.07\nlow,3.21,0.95,3.21,0.95\n",
     ],
 )
 def test_means_with_standard_deviations_lead_to_their_t(tmp_path: Path, text: str) -> None:
     found = check(tmp_path, text, 34)
     assert found.kind == "means" and not found.faults
     student = found.recomputed[0].student
-    assert student.t == pytest.approx(2.7176689745467768) and student.df == 66
-    assert student.p == pytest.approx(0.0041943291546187953)
-    assert "joy: t(66) = 2.72, p = .004, one-sided" in str(found)
+    assert student.t == pytest.approx(2.7303159851066439) and student.df == 66
+    assert student.p == pytest.approx(0.0040526904064724098)
+    assert "joy: t(66) = 2.73, p = .004, one-sided" in str(found)
 
 
 def test_each_mean_is_of_the_participants_in_its_row(tmp_path: Path) -> None:
-    found = check(tmp_path, "item,M,SD,n\njoy,3.88,1.07,34\nfear,3.50,1.00,30\nshame,3.88,1.00,30\n", 34)
+    found = check(tmp_path, "item,M,SD,n\njoy,3.88,1.07,34\nfear,3.50,1.01,30\nshame,3.88,1.00,30\n", 34)
     assert [fault.row for fault in found.faults] == ["shame"] and "of 30 answers" in found.faults[0].message
 
 
@@ -169,6 +176,44 @@ def test_a_table_that_is_not_there_is_refused_in_plain_words(tmp_path: Path) -> 
     (tmp_path / "t.csv").write_bytes("clip,yes\ncafé,0.3\n".encode("latin-1"))
     with pytest.raises(InputError, match=r"t\.csv: is not UTF-8"):
         verify(tmp_path / "t.csv", n=34)
+
+
+# R: scrutiny::grimmer(x = M, sd = SD, n = n), the examples of its manual; the last one of two items
+GRIMMER = [
+    ("5.23", "2.55", 35, 1, False),
+    ("5.23", "2.55", 31, 1, True),
+    ("4.74", "6.55", 31, 1, True),
+    ("2.57", "2.57", 30, 1, True),
+    ("2.68", "2.59", 34, 1, True),
+    ("5.00", "2.18", 31, 1, True),
+    ("2.74", "0.96", 63, 2, True),
+]
+
+
+@pytest.mark.parametrize(("mean", "sd", "n", "items", "possible"), GRIMMER)
+def test_published_standard_deviations_are_judged_as_elsewhere(
+    mean: str, sd: str, n: int, items: int, possible: bool
+) -> None:
+    assert sd_is_possible(Decimal(sd), Decimal(mean), n, items) == possible
+
+
+@given(
+    st.lists(st.lists(st.integers(0, 9), min_size=3, max_size=3), min_size=2, max_size=40), st.integers(0, 17)
+)
+def test_a_standard_deviation_of_real_answers_is_always_possible(
+    people: list[list[int]], decimals: int
+) -> None:
+    scores = [sum(answers) / 3 for answers in people]
+    mean, sd = (Decimal(f"{number:.{decimals}f}") for number in (np.mean(scores), np.std(scores, ddof=1)))
+    assert sd_is_possible(sd, mean, len(people), items=3)
+
+
+def test_a_standard_deviation_that_no_answers_have_is_named(tmp_path: Path) -> None:
+    found = check(tmp_path, "item,M,SD\njoy,3.21,0.95\nfear,3.21,0.96\n", 34)
+    assert [str(fault) for fault in found.faults] == [
+        "line 3, fear: 0.96 is no standard deviation (n − 1) of 34 whole answers with the mean 3.21"
+    ]
+    assert "2 printed means checked against n = 34, and their standard deviations." in str(found)
 
 
 @given(st.integers(1, 120), st.integers(0, 120))
