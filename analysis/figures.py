@@ -243,7 +243,8 @@ def _paint_compared(figure: FigureBase, *, outcome: Levels, labels: Mapping[str,
     axes.set_xlim(-0.5, len(comparison.pairs) - 0.5)
     axes.set_xticks(places, names)
     axes.tick_params(axis="x", length=0)
-    alone = labels.get(comparison.item, comparison.item) if len(comparison.pairs) == 1 else ""
+    judged = labels.get(comparison.item, comparison.item.capitalize())
+    alone = judged if len(comparison.pairs) == 1 else ""
     axes.set_ylabel(f"{alone or 'Rating'}, mean ± SE")
     for x, name in enumerate(() if alone else comparison.pairs):
         axes.annotate(

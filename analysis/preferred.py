@@ -84,7 +84,7 @@ def _paint(figure: FigureBase, *, outcome: Preferences, labels: Mapping[str, str
         )  # fmt: skip
         axes.annotate(
             f"{one.test.k}/{one.test.n}", (share, y), xytext=(0, 4), textcoords="offset points", ha="center",
-            fontsize=6, color=INK,
+            fontsize=6, color=INK, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
         )  # fmt: skip
     axes.axvline(0.5, color=INK, linewidth=0.6, linestyle=(0, (4, 3)), zorder=1)
     axes.set_xlim(-0.02, 1.02)

@@ -87,8 +87,10 @@ def _outcome(
             pages.tabulate(
                 LEVEL_HEAD if outcome.comparison.outcome else ratings, _level_rows(outcome, labels)
             )
-    for key, sentence in sentences(outcome).items():
-        pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8)
+    found = sentences(outcome)
+    for place, (key, sentence) in enumerate(found.items(), start=2):
+        last_but_one = place == len(found)  # the last does not stand alone on a page
+        pages.write(f"{labels.get(key, key.capitalize())}: {sentence}.", size=8, with_next=last_but_one)
 
 
 def _provenance(provenance: Provenance) -> Iterator[str]:

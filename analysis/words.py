@@ -189,7 +189,7 @@ def _assumes(name: str, outcome: Outcome) -> Iterator[str]:
 def assumptions(outcome: Outcome) -> str:
     """What the declared test assumes, and what tests without it decide; empty for exact tests."""
     found = [f"{one.assumes} ({one.test}: {_decided(one)})" for one in relaxed(outcome)]
-    return f"Assumed, and decided by tests without: {'; '.join(found)}." if found else ""
+    return f"Assumptions, and what tests without them decide: {'; '.join(found)}." if found else ""
 
 
 def _decided(one: Relaxed) -> str:
@@ -229,7 +229,7 @@ def method(outcome: Outcome) -> str:
         )
     if isinstance(outcome, Preferences):
         first, second = outcome.compare
-        return f"Share that chose {first} over {second}, side by side, against one half; exact. {how}"
+        return f"Share that chose {first} over {second}, side by side, against one half. {how}"
     first, second = outcome.comparison.levels
     share = f", share of “{outcome.comparison.outcome}”" if outcome.comparison.outcome else ""
     return f"{first.capitalize()} against {second}{share}. {how}"

@@ -36,8 +36,8 @@ def test_a_decision_that_rests_on_independent_answers_is_named(paper: Protocol, 
 def test_every_assumption_is_named_where_nothing_rests_on_it(paper: Protocol, write: Write) -> None:
     findings = carry_out(read_responses(write([*ratings(), *choices()]), paper), paper)
     assert assumptions(findings.outcomes["H1"]) == (
-        "Assumed, and decided by tests without: normally distributed means (exact sign flip: the same); "
-        "equally spaced points (Wilcoxon's signed ranks: the same)."
+        "Assumptions, and what tests without them decide: normally distributed means "
+        "(exact sign flip: the same); equally spaced points (Wilcoxon's signed ranks: the same)."
     )
     assert warnings(findings) == [
         "H2.1: Student's t-test of independent samples undefined: zero variance in both groups (time, exa); "
