@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stimuli.robots.model import Joint, Robot
 from stimuli.trajectory import FloatArray, Trajectory
@@ -44,56 +46,86 @@ def violations(
     trajectory: Trajectory, robot: Robot, quantities: tuple[str, ...] = QUANTITIES
 ) -> list[Violation]:
     """Every limit exceeded, worst place each, in the order of the joints."""
-    found = [
-        violation for name in trajectory.joints for violation in _of_joint(trajectory, robot.joint(name))
-    ]
+    joints = [robot.joint(name) for name in trajectory.joints]
+    nowhere = ~np.isfinite(trajectory.positions).all(axis=0)  # neither within limits nor beyond them
+    bounds = [(bounded, bounded.exceeded()) for bounded in _bounded(trajectory, joints)]
+    found = []
+    for column, joint in enumerate(joints):
+        if nowhere[column]:
+            found.append(_nowhere(trajectory, column, joint))
+        else:
+            found += [bounded.worst(column, joint, trajectory) for bounded, over in bounds if over[column]]
     return [violation for violation in found if violation.quantity in quantities]
 
 
-def _of_joint(trajectory: Trajectory, joint: Joint) -> list[Violation]:
-    nowhere = np.flatnonzero(~np.isfinite(trajectory.joint(joint.name)))
-    if nowhere.size:  # neither within limits nor beyond them
-        value, time_s = trajectory.joint(joint.name)[nowhere[0]], trajectory.times[nowhere[0]]
-        unit = "" if joint.unit == "1" else joint.unit
-        return [
-            Violation(joint.name, "position", float(time_s), float(value), joint.upper, unit, excess=np.inf)
-        ]
-    found = []
-    for bounded in _bounded(trajectory, joint):
-        excess: FloatArray = np.maximum(bounded.values - bounded.upper, bounded.lower - bounded.values)
-        if excess.size and excess.max() > bounded.slack:
-            worst = int(np.argmax(excess))
-            value, time_s = float(bounded.values[worst]), float(trajectory.times[worst])
-            limit = bounded.upper if value > bounded.upper else bounded.lower
-            share = float(excess[worst]) / (bounded.upper - bounded.lower)
-            found.append(Violation(joint.name, bounded.quantity, time_s, value, limit, bounded.unit, share))
-    return found
+def _nowhere(trajectory: Trajectory, column: int, joint: Joint) -> Violation:
+    y = trajectory.positions[:, column]
+    first = int(np.flatnonzero(~np.isfinite(y))[0])
+    time_s, value = float(trajectory.times[first]), float(y[first])
+    return Violation(joint.name, "position", time_s, value, joint.upper, _unit(joint, 0), excess=np.inf)
 
 
 @dataclass(frozen=True)
 class _Bounded:
-    """A quantity of a joint over time, and its bounds."""
+    """A quantity of all joints over time, and its bounds."""
 
-    quantity: str
-    unit: str
-    values: FloatArray
-    lower: float
-    upper: float
-    slack: float
+    order: int  # of the derivative
+    values: FloatArray  # (n, d)
+    lower: FloatArray  # (d,)
+    upper: FloatArray  # (d,)
+
+    @property
+    def quantity(self) -> str:
+        """Its name."""
+        return QUANTITIES[self.order]
+
+    @property
+    def slack(self) -> FloatArray:
+        """What bounds may be exceeded by, (d,)."""
+        return TOLERANCE * (self.upper - self.lower if self.order == 0 else self.upper)
+
+    def excess(self) -> FloatArray:
+        """How far beyond its bounds, (n, d); below zero within them."""
+        with np.errstate(invalid="ignore"):  # joints that are nowhere are told apart
+            excess: FloatArray = np.maximum(self.values - self.upper, self.lower - self.values)
+        return excess
+
+    def exceeded(self) -> NDArray[np.bool_]:
+        """Which joints exceed it, (d,)."""
+        exceeded: NDArray[np.bool_] = self.excess().max(axis=0, initial=-np.inf) > self.slack
+        return exceeded
+
+    def worst(self, column: int, joint: Joint, trajectory: Trajectory) -> Violation:
+        """Where a joint exceeds it most."""
+        lower, upper = float(self.lower[column]), float(self.upper[column])
+        excess = self.excess()[:, column]
+        worst = int(np.argmax(excess))
+        value, time_s = float(self.values[worst, column]), float(trajectory.times[worst])
+        limit, share = (upper if value > upper else lower), float(excess[worst]) / (upper - lower)
+        return Violation(joint.name, self.quantity, time_s, value, limit, _unit(joint, self.order), share)
 
 
-def _bounded(trajectory: Trajectory, joint: Joint) -> tuple[_Bounded, ...]:
-    y = trajectory.joint(joint.name)
-    velocity = np.diff(y) / np.diff(trajectory.times)
-    acceleration = np.diff(velocity) / np.diff(trajectory.times)[1:]
-    unit = joint.unit
+def _unit(joint: Joint, order: int) -> str:
+    return (("" if joint.unit == "1" else joint.unit), f"{joint.unit}/s", f"{joint.unit}/s²")[order]
+
+
+def _bounded(trajectory: Trajectory, joints: Sequence[Joint]) -> tuple[_Bounded, ...]:
+    y, steps = trajectory.positions, np.diff(trajectory.times)[:, None]
+    with np.errstate(invalid="ignore", over="ignore"):
+        velocity = np.diff(y, axis=0) / steps
+        acceleration = np.diff(velocity, axis=0) / steps[1:]
+    fastest = _limits(joint.max_velocity for joint in joints)
+    hardest = _limits(joint.max_acceleration for joint in joints)
     return (
-        _Bounded(
-            "position", "" if unit == "1" else unit, y, joint.lower, joint.upper, TOLERANCE * joint.range
-        ),
-        _Bounded("velocity", f"{unit}/s", velocity, *_both_ways(joint.max_velocity)),
-        _Bounded("acceleration", f"{unit}/s²", acceleration, *_both_ways(joint.max_acceleration)),
+        _Bounded(0, y, _limits(j.lower for j in joints), _limits(j.upper for j in joints)),
+        _Bounded(1, velocity, -fastest, fastest),
+        _Bounded(2, acceleration, -hardest, hardest),
     )
+
+
+def _limits(written: Iterable[float | None]) -> FloatArray:
+    """Limits of all joints, (d,); infinite where there is none."""
+    return np.array([np.inf if limit is None else limit for limit in written])
 
 
 def share_that_fits(good: Trajectory, bad: Trajectory, robot: Robot) -> float:
@@ -101,35 +133,27 @@ def share_that_fits(good: Trajectory, bad: Trajectory, robot: Robot) -> float:
 
     In closed form: the smallest (limit - good) / (bad - good). Both motions need the same times.
     """
-    share = 1.0
-    for name in good.joints:
-        joint = robot.joint(name)
-        for here, there in zip(_bounded(good, joint), _bounded(bad, joint), strict=True):
-            room = np.where(
-                there.values > here.values,
-                here.upper + here.slack - here.values,
-                here.values - here.lower + here.slack,
-            )
-            way = np.abs(there.values - here.values)
-            share = min(share, float(np.min(room[way > 0] / way[way > 0], initial=share)))
+    share, joints = 1.0, [robot.joint(name) for name in good.joints]
+    for here, there in zip(_bounded(good, joints), _bounded(bad, joints), strict=True):
+        room = np.where(
+            there.values > here.values,
+            here.upper + here.slack - here.values,
+            here.values - here.lower + here.slack,
+        )
+        way = np.abs(there.values - here.values)
+        share = min(share, float(np.min(room[way > 0] / way[way > 0], initial=share)))
     return max(share, 0.0)
-
-
-def _both_ways(limit: float | None) -> tuple[float, float, float]:
-    bound = np.inf if limit is None else limit
-    return -bound, bound, 0.0 if limit is None else TOLERANCE * limit
 
 
 def margins(trajectory: Trajectory, robot: Robot) -> dict[str, dict[str, float]]:
     """Per joint: peak to peak, and what is left of the range, in its unit; of the velocity, as a share."""
-    left = {}
-    for name in trajectory.joints:
-        joint, y = robot.joint(name), trajectory.joint(name)
-        left[name] = {
-            "amplitude": float(np.ptp(y)),
-            "position": float(min(y.min() - joint.lower, joint.upper - y.max())),
-        }
-        if joint.max_velocity is not None:
-            fastest = float(np.max(np.abs(np.diff(y) / np.diff(trajectory.times)), initial=0.0))
-            left[name]["velocity"] = 1 - fastest / joint.max_velocity
-    return left
+    joints = [robot.joint(name) for name in trajectory.joints]
+    position, velocity, _ = _bounded(trajectory, joints)
+    amplitudes = np.ptp(position.values, axis=0)
+    left = np.min(np.minimum(position.values - position.lower, position.upper - position.values), axis=0)
+    fastest = np.max(np.abs(velocity.values), axis=0, initial=0.0)
+    return {
+        joint.name: {"amplitude": float(amplitudes[k]), "position": float(left[k])}
+        | ({} if joint.max_velocity is None else {"velocity": float(1 - fastest[k] / joint.max_velocity)})
+        for k, joint in enumerate(joints)
+    }
