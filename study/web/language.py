@@ -9,6 +9,7 @@ from pathlib import Path
 
 from babel import Locale
 from babel.messages.pofile import read_po
+from babel.numbers import format_decimal
 
 CATALOGUES = Path(__file__).parent / "languages"
 SOURCE = "en"
@@ -24,6 +25,10 @@ class Language:
     def text(self, english: str) -> str:
         """The text in this language, or in English where it has none."""
         return self.texts.get(english, english)
+
+    def number(self, value: float) -> str:
+        """A number as one writes it in this language: 0,5 in German."""
+        return format_decimal(value, format="0.###############", locale=self.code.replace("-", "_"))
 
     @cached_property
     def name(self) -> str:

@@ -66,10 +66,16 @@ def ask(
     """A question as HTML, by the template beside its kind."""
     shown = items or tuple(question.items)
     template = _template(question.template)
-    _ = load_language(language).text
+    spoken = load_language(language)
     return Markup(
         template.render(
-            question=question, number=number, language=language, items=shown, options=options, _=_
+            question=question,
+            number=number,
+            language=language,
+            items=shown,
+            options=options,
+            _=spoken.text,
+            figure=spoken.number,
         )
     )
 

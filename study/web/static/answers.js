@@ -27,8 +27,12 @@ export class Answers {
     this.#answered.set(item, { value, changes: before ? before.changes + 1 : 0 });
   }
 
-  /** "" where nothing is answered. Several ticks of one item are joined by ";". */
-  #value(item) { return new FormData(this.#form).getAll(item).join(";").trim(); }
+  /** "" where nothing is answered. Several ticks of one item are joined by ";"; 34 may also be typed as 3.4e1. */
+  #value(item) {
+    const field = this.#form.elements[item];
+    if (field.type === "number") return Number.isNaN(field.valueAsNumber) ? "" : String(field.valueAsNumber);
+    return new FormData(this.#form).getAll(item).join(";").trim();
+  }
 
   /** Items in the form, each once, in the order shown. */
   get items() {

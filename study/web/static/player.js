@@ -106,6 +106,7 @@ export class Player {
     on("ended", () => this.#ended());
     on("error", () => this.#failed());
     video.addEventListener("timeupdate", () => this.#look());
+    video.addEventListener("contextmenu", (event) => event.preventDefault()); // browsers offer controls there
     document.addEventListener("visibilitychange", () => {
       this.#note(document.visibilityState);
       if (document.hidden && this.#playing) video.pause();
@@ -128,6 +129,7 @@ export class Player {
     if (!("requestVideoFrameCallback" in this.#video)) return;
     this.#video.requestVideoFrameCallback(() => {
       this.#look();
+      if (this.record.frames === 0) this.#note("first frame");
       if (!this.seen) this.record.frames += 1;
       if (this.#playing) this.#countFrames();
     });

@@ -17,31 +17,40 @@ pytestmark = pytest.mark.xdist_group("browser")
 EXPRESSIONS = ["joy", "sadness", "anger", "fear", "shame", "hurry"]
 
 
-def test_a_whole_study_with_reloads_leaves_every_answer_once(visit, page: Page, site: Site) -> None:
+def test_a_whole_study_reloaded_at_every_step_leaves_every_answer_once(visit, page: Page, site: Site) -> None:
+    def proceed() -> None:
+        visit.proceed()
+        place = visit.place
+        page.reload()
+        assert visit.place == place
+
     visit.begin()
+    page.reload()
     page.get_by_label("How old are you?").fill("34")
-    visit.proceed(2)  # and the instructions of the practice
+    proceed()
+    proceed()  # instructions of the practice
     visit.watch()
     visit.rate(1)
-    visit.proceed(2)  # and the instructions of the first part
+    proceed()
+    proceed()  # instructions of the first part
     for point in (2, 4):
-        place = visit.place
         visit.watch()
-        page.reload()  # in the middle: the same page, to be watched again
-        assert visit.place == place
+        visit.rate(3)
+        page.reload()  # in the middle: to be watched again
         expect(page.get_by_role("radio").first).to_be_disabled()
         visit.watch()
         visit.rate(3)
         visit.rate(point)
-        visit.proceed()
-    page.reload()
-    visit.proceed()  # instructions of the second part
+        proceed()
+    proceed()  # instructions of the second part
     visit.watch()
     page.get_by_label("lower intensity").check()
-    visit.proceed()
+    proceed()
     visit.watch()
     page.get_by_label("higher intensity").check()
     visit.press_continue()
+    expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()
+    page.reload()
     expect(page.get_by_role("heading", name="You have reached the end")).to_be_visible()
 
     rows = list(csv.DictReader(io.StringIO(responses_csv(site.store))))
@@ -73,7 +82,9 @@ def test_a_whole_study_with_reloads_leaves_every_answer_once(visit, page: Page, 
 
 
 @pytest.mark.parametrize("page", ["narrow German"], indirect=True)
-def test_what_is_impossible_is_said_in_the_language_of_the_study(page: Page, address: str) -> None:
+def test_what_is_impossible_is_said_in_the_language_of_the_study(
+    page: Page, address: str, site: Site
+) -> None:
     page.goto(address)
     page.get_by_role("button", name="Starten").click()
     page.get_by_role("checkbox").check()
@@ -82,6 +93,11 @@ def test_what_is_impossible_is_said_in_the_language_of_the_study(page: Page, add
     page.get_by_role("button", name="Weiter").click()
     expect(page.locator("#notice")).to_have_text("Bitte geben Sie eine Zahl von 18 bis 120 an.")
     expect(page.get_by_label("Wie alt sind Sie?")).to_be_focused()
+    page.get_by_label("Wie alt sind Sie?").fill("3.4e1")
+    page.get_by_role("button", name="Weiter").click()
+    expect(page.get_by_role("heading", name="Bevor es losgeht")).to_be_visible()
+    [(_, [response])] = site.store.responses("participant")
+    assert response.submission.values["age"] == "34"
 
 
 @pytest.mark.parametrize("page", ["narrow German"], indirect=True)

@@ -11,7 +11,7 @@ import httpx
 import pytest
 
 from study.export import responses_csv, responses_json
-from study.participants import Contact, new_participant, new_personal_code, token_of_code
+from study.participants import Contact, new_participant, new_personal_code, new_token, token_of_code
 from study.protocol import load_protocol
 from study.web.app import create_app
 from study.web.limits import Limit
@@ -110,6 +110,14 @@ def test_an_invitation_not_followed_in_time_opens_nothing_and_whoever_began_goes
         assert [tries(code) for code in codes] == [(200, 200)] * 2
         days[0] = 91
         assert [tries(code) for code in codes] == [(200, 200), (410, 410)]
+
+
+def test_a_link_may_ask_for_a_language(visitor: httpx.Client, site: Site) -> None:
+    assert '<html lang="de">' in visitor.get("/?lang=de").text
+    assert '<html lang="de">' in visitor.get("/withdraw").text, "and it is kept"
+    token = new_token()
+    site.store.add_participant(new_participant(token, kind="participant", created_at=site.clock()))
+    assert "Information and consent" in visitor.get(f"/p/{token}?lang=en").text
 
 
 def test_a_browser_that_keeps_no_cookie_is_told_so(visitor: httpx.Client) -> None:

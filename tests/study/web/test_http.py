@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 import re
@@ -55,6 +56,13 @@ def form_token(page: httpx.Response) -> str:
     found = re.search(r'name="form_token" value="(\w+)"', page.text)
     assert found
     return found[1]
+
+
+def test_consent_is_recorded_with_the_hash_of_its_text(visitor: httpx.Client, site: Site) -> None:
+    session = site.store.session(begin(visitor)["participant"])
+    assert session is not None
+    text = site.protocol.texts.consent.in_("en")
+    assert session.consent_sha256 == hashlib.sha256(text.encode()).hexdigest()
 
 
 def test_an_answer_may_be_sent_again(visitor: httpx.Client) -> None:

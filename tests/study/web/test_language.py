@@ -7,10 +7,11 @@ from typing import get_args
 import pytest
 
 import study.questions
+from study.questions.number import Number
 from study.storage.store import Phase
 from study.web.language import CATALOGUES, load_language, preferred
 from study.web.overview import STATES, TROUBLES
-from study.web.pages import HERE
+from study.web.pages import HERE, ask
 from study.web.step_pages import PAGE_TEXTS
 
 SPOKEN = re.compile(r"""\b(?:_|say)\((?:"([^"]+)"|'([^']+)')\)""")
@@ -47,3 +48,10 @@ def test_every_translation_keeps_what_is_filled_in(catalogue: Path) -> None:
 )
 def test_the_browser_s_wish_is_followed(accept: str, expected: str) -> None:
     assert preferred(accept, ("en", "de")) == expected
+
+
+def test_numbers_are_written_as_in_the_language_and_bounds_to_the_last_digit() -> None:
+    bounds = {"least": 0.5, "most": 1234567}
+    shown = ask("de", Number.model_validate({"item": "steps", "text": "Wie viele?"} | bounds), 1)
+    assert 'min="0.5" max="1234567"' in shown
+    assert "Bitte geben Sie eine Zahl von 0,5 bis 1234567 an." in shown

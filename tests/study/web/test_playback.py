@@ -67,6 +67,7 @@ def test_every_play_is_on_record_and_replays_end_where_the_protocol_says(
     assert 0 < view.frames <= 18 + 1, "frames shown, by requestVideoFrameCallback; fewer on a busy machine"
     names = [happening.name for happening in view.happenings]
     assert names.count("playing") == names.count("ended") == 2
+    assert names.count("first frame") == 1
     [session] = json.loads(responses_json(site.store))["sessions"]
     assert session["pages"][-1]["views"] == [view.model_dump(mode="json")], "all of it is exported"
     times = [happening.at_ms for happening in view.happenings]
@@ -82,6 +83,8 @@ def test_a_pause_a_jump_and_another_speed_are_on_record_and_gain_nothing(
     page.evaluate("document.querySelector('video').currentTime = 0.59")
     page.evaluate("document.querySelector('video').playbackRate = 8")
     expect(page.get_by_role("radio").first).to_be_disabled()
+    menu = "document.querySelector('video').dispatchEvent(new Event('contextmenu', { cancelable: true }))"
+    assert page.evaluate(menu) is False, "the browser's own controls are in there"
     page.get_by_role("button", name="Continue the video").click()
     expect(page.locator("figure [role=status]")).to_have_text("Watched")
     view = view_sent(visit, site)
@@ -121,13 +124,28 @@ def test_a_clip_out_of_sight_waits(visit, page: Page, site: Site) -> None:
     assert {"hidden", "pause"} <= {happening.name for happening in view.happenings}
 
 
+def test_what_comes_next_is_loaded_ahead(visit, page: Page) -> None:
+    with page.expect_request_finished(lambda request: "/clips/" in request.url):
+        visit.skip_to(2)
+    visit.proceed()
+    expect(page.get_by_role("button", name="Play")).to_be_enabled()
+    sizes = """performance.getEntriesByType("resource").filter(({ name }) => name.includes("/clips/"))
+               .map(({ transferSize }) => transferSize)"""
+    assert page.evaluate(sizes) == [0], "it came from the browser's cache"
+
+
 @pytest.mark.usefixtures("hasty")
-def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site: Site) -> None:
+@pytest.mark.parametrize("fault", ["none", "other bytes"])
+def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site: Site, fault: str) -> None:
+    sizes = {clip.name: clip.size for clip in site.clips.values()}
+
     def only_streams(route: Route) -> None:
         if route.request.resource_type == "media":
             route.continue_()
-        else:
+        elif fault == "none":
             route.fulfill(status=503)
+        else:
+            route.fulfill(body=bytes(sizes[route.request.url.rpartition("/")[2]]))
 
     page.context.route("**/clips/*", only_streams)
     come_to_the_practice(visit)
