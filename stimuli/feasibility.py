@@ -47,11 +47,11 @@ def violations(
 ) -> list[Violation]:
     """Every limit exceeded, worst place each, in the order of the joints."""
     joints = [robot.joint(name) for name in trajectory.joints]
-    nowhere = ~np.isfinite(trajectory.positions).all(axis=0)  # neither within limits nor beyond them
+    nowhere = np.flatnonzero(~np.isfinite(trajectory.positions).all(axis=0))  # neither within nor beyond
     bounds = [(bounded, bounded.exceeded()) for bounded in _bounded(trajectory, joints)]
     found = []
     for column, joint in enumerate(joints):
-        if nowhere[column]:
+        if column in nowhere:
             found.append(_nowhere(trajectory, column, joint))
         else:
             found += [bounded.worst(column, joint, trajectory) for bounded, over in bounds if over[column]]
