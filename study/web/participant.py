@@ -99,6 +99,7 @@ def _the_end(request: Request, participant: Participant, session: Session) -> Re
         language=session.language,
         kind=participant.kind,
         completion_code=session.completion_code,
+        service=recruitment.called,
         completion_url=recruitment.completion_address(external_id=external_id, code=session.completion_code),
     )
 

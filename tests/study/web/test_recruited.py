@@ -42,9 +42,7 @@ def test_from_the_service_and_back(
     file = site.protocol.path
     written = file.read_text(encoding="utf-8").replace("participants: {planned: 4}", recruits)
     file.write_text(written, encoding="utf-8")
-    with running(
-        create_app(replace(site, protocol=load_protocol(file), kind="simulated", door="link"))
-    ) as address:
+    with running(create_app(replace(site, protocol=load_protocol(file), kind="simulated"))) as address:
         page.goto(f"{address}/?{sent}")
         assert page.url == f"{address}/study"
         page.get_by_role("checkbox").check()
@@ -61,3 +59,5 @@ def test_from_the_service_and_back(
             expect(link).to_have_attribute("href", back)
         else:
             expect(link).to_have_count(0)
+            expect(page.get_by_text("Please enter it at MTurk too")).to_be_visible()
+            expect(page.get_by_role("button", name="Next participant")).to_have_count(0)
