@@ -177,10 +177,11 @@ def _files(protocol: Protocol) -> Iterator[Contradiction]:
         if _leaves_the_folder(str(gesture.file)):
             yield ("gestures", name), LEAVES
     for robot in protocol.robots:
-        outside = [file for file in protocol.files_of_robot(robot) if _leaves_the_folder(file)]
+        files = protocol.files_of_robot(robot)
+        outside = next((file for file in files and (robot, *files) if _leaves_the_folder(file)), None)
         if outside:
-            what = "" if _leaves_the_folder(robot) else f"needs {outside[0]}, which "
-            yield protocol.place_of_robot(robot), what + LEAVES
+            needs = "" if outside == robot else f"needs {outside}, which "
+            yield protocol.place_of_robot(robot), needs + LEAVES
 
 
 def _leaves_the_folder(name: str) -> bool:

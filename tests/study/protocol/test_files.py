@@ -129,5 +129,7 @@ def test_files_outside_the_folder_are_refused_as_no_copy_of_the_study_would_have
 
 def test_absolute_paths_are_refused_as_another_machine_would_not_have_them(load, written, tmp_path):
     written["gestures"]["wave"] = str(tmp_path / "wave.yaml")
-    with pytest.raises(ProtocolError, match=r"gestures\.wave: .* leaves the study's folder"):
+    written["robot"] = str(tmp_path / "robot.yaml")
+    with pytest.raises(ProtocolError) as refused:
         load(written)
+    assert [problem.field for problem in refused.value.problems] == ["gestures.wave", "robot"]
