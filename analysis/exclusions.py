@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from analysis.answers import Answers
 from analysis.dataset import Responses
 from study.protocol import Exclusions
 
@@ -107,8 +108,14 @@ def _straight_lining(responses: Responses) -> NDArray[np.bool_]:
     straight = _nobody(responses)
     for question in responses.questions:
         if len(question.items) > 1:
-            there = question.codes >= 0
-            lowest = question.codes.min(axis=(1, 2), where=there, initial=np.iinfo(np.int8).max)
-            alike = question.codes.max(axis=(1, 2)) == lowest
-            straight |= alike & (np.count_nonzero(there, axis=(1, 2)) > 1)
+            straight |= gave_one_answer(question)
+    return straight
+
+
+def gave_one_answer(question: Answers) -> NDArray[np.bool_]:
+    """Participants whose answers to a question are several and all the same, (participants,)."""
+    there = question.codes >= 0
+    lowest = question.codes.min(axis=(1, 2), where=there, initial=np.iinfo(np.int8).max)
+    alike = question.codes.max(axis=(1, 2)) == lowest
+    straight: NDArray[np.bool_] = alike & (np.count_nonzero(there, axis=(1, 2)) > 1)
     return straight

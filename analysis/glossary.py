@@ -33,6 +33,9 @@ GLOSSARY = {
     "R: binom.test on the discordant pairs",
     "mid-p": "McNemar's mid-p, two-sided: half the weight of the observed outcome, less conservative.",
     "Newcombe": "Difference of the two shares with Newcombe's hybrid score interval.",
+    "pace": "Each participant's median time per answer.",
+    "own SD": "Standard deviation of a participant's own ratings (intra-individual response variability): "
+    "near 0 for somebody who always answers the same.",
     "BCa": "Bootstrap interval of the mean, bias-corrected, 9,999 resamples, fixed seed.",
     "CLMM": "Cumulative-link mixed model: log odds that the intended item is rated higher than the others, "
     "with an effect of the participant. R: ordinal::clmm",

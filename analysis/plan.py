@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 TAKEN = frozenset({
     "study", "data", "answered_at", "analysed_at", "software", "seed", "alpha", "participants", "missing",
-    "hypotheses", "further", "described", "effects", "scales", "bootstrap_seed", "before_exclusions",
+    "hypotheses", "further", "described", "answering", "effects", "scales", "bootstrap_seed",
+    "before_exclusions",
 })  # fmt: skip
 """Names that stand in results.json or among the figures for something else than a hypothesis."""
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass
+from functools import cached_property
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from analysis.assumptions import relaxed
+from analysis.care import Pace, Variety, pace, varieties
 from analysis.chance import DEFINITIONS
 from analysis.description import described
 from analysis.further import SEED, Further
@@ -94,9 +96,20 @@ class Results:
                         outcome.hypothesis
                     ] = mirrored
         content["further"] = self._further()
+        content["answering"] = {"pace": self.pace, "varieties": self.varieties}
         content["described"] = [*described(self.findings)]
         strictly: Json = strict(content)
         return strictly
+
+    @cached_property
+    def pace(self) -> Pace | None:
+        """How fast the participants analysed answered."""
+        return pace(self.findings.responses)
+
+    @cached_property
+    def varieties(self) -> tuple[Variety, ...]:
+        """How much the ratings of each of them differ."""
+        return tuple(varieties(self.findings.responses))
 
     def _further(self) -> Json:
         """Further checks, by name of the results; without exclusions only where somebody was left out."""

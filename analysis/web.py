@@ -56,6 +56,8 @@ def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) 
         findings=findings,
         further=results.further,
         described=[*described(findings)],
+        pace=results.pace,
+        varieties=results.varieties,
         note=findings.responses.note,
         alpha=findings.alpha,
         labels=labels_of(protocol),
