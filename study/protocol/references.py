@@ -177,7 +177,7 @@ def _files(protocol: Protocol) -> Iterator[Contradiction]:
         if _leaves_the_folder(str(gesture.file)):
             yield ("gestures", name), LEAVES
     for robot in protocol.robots:
-        files = protocol.files_of_robot(robot)
+        files = protocol.files_of_robot(robot)  # none of a packaged one
         outside = next((file for file in files and (robot, *files) if _leaves_the_folder(file)), None)
         if outside:
             needs = "" if outside == robot else f"needs {outside}, which "

@@ -132,4 +132,4 @@ def test_absolute_paths_are_refused_as_another_machine_would_not_have_them(load,
     written["robot"] = str(tmp_path / "robot.yaml")
     with pytest.raises(ProtocolError) as refused:
         load(written)
-    assert [problem.field for problem in refused.value.problems] == ["gestures.wave", "robot"]
+    assert [problem.field for problem in refused.value.problems] == ["robot", "gestures.wave"]
