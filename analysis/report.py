@@ -11,6 +11,7 @@ from pathlib import Path
 from platform import python_version
 from typing import TYPE_CHECKING
 
+from analysis.alongside import alongside
 from analysis.dataset import read_responses
 from analysis.drawing import Drawing, styled
 from analysis.figures import draw_compared, draw_levels, draw_targets
@@ -39,6 +40,19 @@ if TYPE_CHECKING:
 PACKAGES = ("expressive-motion-study", "numpy", "scipy", "pandas", "matplotlib")
 
 
+@contextmanager
+def _garbage_kept() -> Iterator[None]:
+    """Look for no garbage meanwhile: nearly all of a report's many objects last till its end."""
+    looked = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if looked:
+            gc.enable()
+
+
+@_garbage_kept()
 def analyse(
     csv: Path,
     protocol: Protocol,
@@ -67,36 +81,32 @@ def analyse(
         analysed=analysed,
     )
     results = Results(findings, provenance, look_further(findings, responses, protocol))
-    with _garbage_kept():
-        _write(out, results, protocol)
+    _write(out, results, protocol)
     return results
-
-
-@contextmanager
-def _garbage_kept() -> Iterator[None]:
-    """Look for no garbage meanwhile: nearly all of a report's many objects last till its end."""
-    looked = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if looked:
-            gc.enable()
 
 
 def _write(out: Path, results: Results, protocol: Protocol) -> None:
     """Write every file of the report into a folder."""
+    import matplotlib.backends.backend_pdf  # noqa: F401  once for both processes below
+
     findings = results.findings
     drawings = draw(findings, labels_of(protocol))
-    for folder in (out, out / "tables", out / "figures"):
+    figures = out / "figures"
+    for folder in (out, out / "tables", figures):
         folder.mkdir(parents=True, exist_ok=True)
-    results.write(out / "results.json")
-    for name, text in tables(findings).items():
-        (out / "tables" / name).write_text(text, encoding="utf-8", newline="")
     for drawing in drawings.values():
-        drawing.write(out / "figures")
-    (out / "report.html").write_text(html(results, protocol, drawings), encoding="utf-8")
-    write_pdf(out / "report.pdf", results, protocol, drawings)
+        drawing.write_svg(figures)
+
+    def print_figures() -> None:
+        for drawing in drawings.values():
+            drawing.write_pdf_and_png(figures)
+
+    with alongside(print_figures):
+        results.write(out / "results.json")
+        for name, text in tables(findings).items():
+            (out / "tables" / name).write_text(text, encoding="utf-8", newline="")
+        (out / "report.html").write_text(html(results, protocol, drawings), encoding="utf-8")
+        write_pdf(out / "report.pdf", results, protocol, drawings)
 
 
 def tables(findings: Findings) -> dict[str, str]:
