@@ -193,7 +193,8 @@ def test_a_personal_code_is_typed_and_the_code_of_the_end_deletes_from_another_d
     session = site.store.session(invited.name)
     assert session is not None
     other = browser.new_context(locale="en-GB").new_page()
-    other.goto(f"{visit.address}/withdraw")
+    other.goto(visit.address)
+    other.get_by_role("link", name="Withdraw from the study").click()
     for typed, said in (("AAAAA-AAAAA", "This code is not known"), (session.completion_code, "are deleted")):
         other.get_by_label("Your code").fill(typed.lower())
         other.get_by_role("checkbox").check()
