@@ -35,8 +35,12 @@ class Record:
 
 
 def read_records(path: Path) -> tuple[list[str], list[Record]]:
-    """The names of the columns, and the rows; answers that stand side by side below each other."""
-    header, records = _read(path)
+    """The names of the columns of a CSV file, and its rows."""
+    return arranged(*_read(path))
+
+
+def arranged(header: list[str], records: list[Record]) -> tuple[list[str], list[Record]]:
+    """The same table with answers that stand side by side below each other."""
     if (below := _second_header(header, records)) is not None:
         groups, answers = _filled(header), below
         records = records[1:]

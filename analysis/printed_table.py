@@ -16,8 +16,8 @@ Kind = Literal["shares", "percentages", "counts", "means"]
 MEANS = {"mean", "m"}
 SPREADS, SIZES = {"sd", "s.d."}, {"n"}  # beside means
 OTHER = re.compile(
-    r"(?i)s\.?d\.?|s\.?e\.?(m\.?)?|n|t|df|p|d|g|f|z|w|ci.*|.*[ _]ci|min|max|median|mdn|p[ _-]?value"
-    r"|p_.*|.*_p(_.*)?|.*_ci_.*"  # as in the tables that study analyse writes
+    r"(?i)s\.?d\.?|s\.?e\.?(m\.?)?|n|t|df|p|d|g|f|z|w|ci.*|.*[ _]ci|.*\[.*ci\]|min|max|median|mdn"
+    r"|p[ _-]?value|p_.*|.*_p(_.*)?|.*_ci_.*"  # as in the tables that study analyse writes
 )
 
 
@@ -48,14 +48,18 @@ class PrintedTable:
 
 
 def read_table(path: Path, n: int) -> PrintedTable:
-    """Read a table: columns of words are labels, columns of numbers its cells.
+    """Read a table from a CSV file. Raises InputError."""
+    return table_of(path, *read_records(path), n)
+
+
+def table_of(path: Path, header: Sequence[str], records: Sequence[Record], n: int) -> PrintedTable:
+    """Tell what a table holds: columns of words are labels, columns of numbers its cells.
 
     A column in which most cells are numbers is one of numbers, and a cell of it that is none is refused.
     Columns called n, sd, se, t, df, p and the like are not checked. Where there is a column called `mean` or
     `M`, no other is; else the cells are percentages if they bear "%" or rows add up to 100, counts if they
     are whole and above 1, and else shares. Raises InputError.
     """
-    header, records = read_records(path)
     numeric = [place for place, name in enumerate(header) if _holds_numbers(path, name, place, records)]
     means = [place for place in numeric if header[place].lower() in MEANS]
     cells = means or _without_numbering(
@@ -66,7 +70,7 @@ def read_table(path: Path, n: int) -> PrintedTable:
             f"{path}: no column holds numbers to check; cells are printed numbers such as 0.79, 79% or 27, "
             "or means in a column called mean"
         )
-    labels = [place for place in range(len(header)) if place not in numeric]
+    labels = [p for p, name in enumerate(header) if p not in numeric and not OTHER.fullmatch(name)]
     rows = [
         PrintedRow(
             record.line,
@@ -134,6 +138,8 @@ def _holds_numbers(path: Path, name: str, place: int, records: Sequence[Record])
     bad = [record for record in records if number(record.cells[place]) is None]
     if 2 * len(bad) >= len(records):
         return False
+    if bad and OTHER.fullmatch(name) and name.lower() not in SPREADS | SIZES:
+        return False  # such as "< .001" among p-values
     if bad:
         value = bad[0].cells[place]
         raise InputError(

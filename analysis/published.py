@@ -133,7 +133,11 @@ def verify(table: Path, n: int, *, items: int = 1) -> Verification:
     checked alone. A column called `mean` or `M` holds means of `items` whole-number ratings per participant.
     How a table is written: `analysis.printed_layout`. Raises InputError where it cannot be read.
     """
-    printed = read_table(table, n)
+    return verify_printed(read_table(table, n), n, items=items)
+
+
+def verify_printed(printed: PrintedTable, n: int, *, items: int = 1) -> Verification:
+    """Check a table that has been read."""
     items = items if printed.kind == "means" else 1
     faults = [
         fault

@@ -47,7 +47,7 @@ LATEX = {  # and HTML
     r"(?<=[<>=≤≥])\s*10\s*(?=\^)": "1×10",
 }
 TABLE = re.compile(
-    r"\\begin\{(?:tabular|longtable)|^[ \t]*\|?[ \t:|-]*-{3}[ \t:-]*\|[ \t:|-]*$|<table",
+    r"\\begin\{(?:tabular|longtable)|^[ \t:|-]*-[ \t:-]*\|[ \t:|-]*$|<table",
     re.MULTILINE | re.IGNORECASE,
 )
 MARKUP = re.compile(
@@ -94,18 +94,22 @@ class Reading:
     def _unread(self) -> Iterator[str]:
         if self.tables:
             what = "1 table was" if self.tables == 1 else f"{self.tables} tables were"
-            yield f"{what} not read: save each as CSV, to check it with study verify TABLE.csv -n 34."
+            yield f"{what} not read: say how many participants are behind it, as in -n 34."
 
 
-def check_file(path: Path) -> Reading:
-    """Recompute every reported test of a text file."""
+def read_text(path: Path) -> str:
+    """What a text file says. Raises InputError."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: is no UTF-8 text (a PDF or Word file?); save it as plain text") from error
-    return Reading(tuple(check_text(text)), tables=len(TABLE.findall(text)))
+
+
+def tables_in(text: str) -> int:
+    """How many tables a text has."""
+    return len(TABLE.findall(text))
 
 
 def check_text(text: str, alpha: float = 0.05) -> list[Checked]:

@@ -54,14 +54,14 @@ def verify(
     items: Annotated[int, typer.Option(min=1, help="Items behind each mean.")] = 1,
 ) -> None:
     """Check what is published: can n participants give this table, do these p-values follow?"""
+    from analysis.paper import check_paper
     from analysis.published import verify as verify_table
-    from analysis.statcheck import check_file
 
     if paper.suffix.lower() == ".csv":
         if n is None:
             raise InputError(f"{paper}: say how many participants are behind the table, as in -n 34")
         found: Any = verify_table(paper, n, items=items)
     else:
-        found = check_file(paper)
+        found = check_paper(paper, n, items=items)
     console.print(escape(str(found)))
     raise typer.Exit(1 if found.faults else 0)

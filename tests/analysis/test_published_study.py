@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from analysis.paper import check_paper
+from analysis.published import HIGHER, N, Verification
 from analysis.report import analyse
 from analysis.results import Results
 from analysis.web import html
@@ -180,6 +182,15 @@ def test_the_latex_tables_compile_and_fit_a_column(
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-2000:]
     assert "Overfull" not in done.stdout
+
+
+def test_the_latex_table_passes_its_own_check(study: tuple[Results, Path]) -> None:
+    found = check_paper(study[1] / "tables" / "intensity.tex", N)
+    ((_, table),) = found.tables
+    assert isinstance(table, Verification) and table.cells == 24 and not found.faults
+    assert {one.name: one.counts and one.counts[0][0] for one in table.recomputed} == {
+        f"P_{name.capitalize()}": counts["high"] for name, counts in HIGHER.items()
+    }
 
 
 def test_the_pages_hold_the_main_story(study: tuple[Results, Path]) -> None:

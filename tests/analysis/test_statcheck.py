@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from analysis.apa import t_sentence
-from analysis.statcheck import check_file, check_text
+from analysis.paper import check_paper
+from analysis.statcheck import check_text
 from analysis.statistics.one_sample_t import METHOD
 from analysis.statistics.student_t import student_t
 from analysis.statistics.t_test import Alternative, Contrast, TTest, t_test
@@ -157,7 +158,7 @@ def test_a_paper_is_read_line_by_line(tmp_path: Path) -> None:
     paper.write_text(
         "It held, t(66) = 2.26, p = .014, one-sided.\nSo did t(66) = 1.20,\np = .01.\n", encoding="utf-8"
     )
-    found = check_file(paper)
+    found = check_paper(paper, None)
     assert [(one.line, one.text) for one in found.faults] == [(2, "t(66) = 1.20, p = .01")]
     assert str(found).splitlines()[0] == "2 reported tests recomputed, 1 inconsistent."
     assert "the decision changes" in str(found)
@@ -174,13 +175,48 @@ def test_a_paper_is_read_line_by_line(tmp_path: Path) -> None:
 def test_a_table_within_a_text_is_said_to_be_unread(table: str, tmp_path: Path) -> None:
     paper = tmp_path / "paper.md"
     paper.write_text(f"# Results\n\n---\n\nIt held, t(66) = 2.26, p = .027.\n\n{table}\n", encoding="utf-8")
-    unread = "1 table was not read: save each as CSV, to check it with study verify TABLE.csv -n 34."
-    assert str(check_file(paper)) == f"1 reported test recomputed, 0 inconsistent.\n{unread}"
+    unread = "1 table was not read: say how many participants are behind it, as in -n 34."
+    assert str(check_paper(paper, None)) == f"1 reported test recomputed, 0 inconsistent.\n{unread}"
+
+
+MARKDOWN = """\
+| clip | up | down |
+|--|:-:|-:|
+| arc high | **0.94** | 0.06 |
+| arc low  | 1.00 | 1.00 |
+| ant low  | .26 | .74 |
+
+Text | with a bar.
+"""
+IN_LATEX = r"""\begin{tabular}{l@{}c|c} \toprule
+  clip & \textit{up} & down \\[2pt] \midrule
+  arc high & $\mathbf{0.94}$ & 0.06 \\ % bold
+  arc low & 1.00 & 1.00 \\
+  ant low & .26 & .74 \\ \cmidrule(lr){1-2}
+\end{tabular}
+"""
+
+
+@pytest.mark.parametrize("text", [MARKDOWN, IN_LATEX])
+def test_tables_of_a_text_are_checked(text: str, tmp_path: Path) -> None:
+    paper = tmp_path / "paper.md"
+    paper.write_text(text, encoding="utf-8")
+    found = check_paper(paper, 34)
+    assert [str(fault) for fault in found.faults] == [
+        "line 4, arc low: shares add up to 2.00, and no counts of 34 give them"
+    ]
+    assert "Table in line 1: 6 printed shares checked against n = 34." in str(found)
+
+
+def test_a_table_in_which_nothing_can_be_checked_says_so(tmp_path: Path) -> None:
+    paper = tmp_path / "paper.md"
+    paper.write_text("| a | b |\n|---|---|\n| x | y |\n", encoding="utf-8")
+    assert "Table in line 1: not checked; no column holds numbers to check" in str(check_paper(paper, 34))
 
 
 def test_a_text_that_cannot_be_read_is_refused_in_plain_words(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"none\.md: cannot be read: No such file or directory$"):
-        check_file(tmp_path / "none.md")
+        check_paper(tmp_path / "none.md", 34)
     (tmp_path / "paper.pdf").write_bytes(b"%PDF-1.4 \xff\xfe")
     with pytest.raises(InputError, match=r"paper\.pdf: is no UTF-8 text \(a PDF or Word file"):
-        check_file(tmp_path / "paper.pdf")
+        check_paper(tmp_path / "paper.pdf", 34)
