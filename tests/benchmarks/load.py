@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import random
 import time
 from collections import Counter
 from collections.abc import Awaitable, Callable
@@ -106,6 +105,7 @@ class Tally:
 
     door: asyncio.Barrier
     latencies_s: list[float] = field(default_factory=list)  # of every acknowledged answer
+    pages_s: list[float] = field(default_factory=list)  # until the next page was there
     errors: Counter[str] = field(default_factory=Counter)  # by status, or by what broke the connection
     elapsed_s: float = 0.0
     own_cpu_s: float = 0.0  # of the crowd itself, which must not be what is measured
@@ -115,15 +115,9 @@ class Tally:
         """Answers stored per second."""
         return len(self.latencies_s) / self.elapsed_s
 
-    def percentile_ms(self, share: float) -> float:
-        """So many ms or less for that share of the answers."""
-        if not self.latencies_s:
-            return float("inf")
-        return 1000 * sorted(self.latencies_s)[int(share * (len(self.latencies_s) - 1))]
-
-    async def time(self, sending: Awaitable[Answer], *, due: float | None = None) -> Answer:
-        """Wait for an answer to be acknowledged, and count it, from the moment on when it was due."""
-        start = time.perf_counter() if due is None else due
+    async def answer(self, sending: Awaitable[Answer]) -> Answer:
+        """Wait for an answer to be acknowledged, and count it."""
+        start = time.perf_counter()
         answer = await sending
         if answer.status < 400:
             self.latencies_s.append(time.perf_counter() - start)
@@ -131,25 +125,19 @@ class Tally:
             self.errors[str(answer.status)] += 1
         return answer
 
+    async def page(self, asking: Awaitable[Answer]) -> Answer:
+        """Wait for the next page."""
+        start = time.perf_counter()
+        page = await asking
+        self.pages_s.append(time.perf_counter() - start)
+        return page
 
-class Pace:
-    """When one participant answers: at once, or every so many seconds, whether or not the server keeps up.
 
-    Moments do not depend on the server, so that one slow answer does not spare it the next (Tene 2013 calls
-    that coordinated omission): what is sent late because its page came late counts from when it was due.
-    """
-
-    def __init__(self, participant: int | str, every_s: float) -> None:
-        self._every_s = every_s
-        self._due = time.perf_counter() + random.Random(participant).random() * every_s
-
-    async def wait(self) -> float | None:
-        """Wait for the next moment; gives it, or None where answers come without thinking."""
-        if not self._every_s:
-            return None
-        due, self._due = self._due, self._due + self._every_s
-        await asyncio.sleep(max(0.0, due - time.perf_counter()))
-        return due
+def percentile_ms(latencies_s: list[float], share: float) -> float:
+    """So many ms or less for that share."""
+    if not latencies_s:
+        return float("inf")
+    return 1000 * sorted(latencies_s)[int(share * (len(latencies_s) - 1))]
 
 
 async def crowd(

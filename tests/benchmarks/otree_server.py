@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tests.benchmarks.load import Browser, Pace, Tally
+from tests.benchmarks.load import Browser, Tally
 
 HOME = Path(".venv-otree")
 PINNED = "otree==6.0.15"
@@ -95,20 +95,18 @@ def otree(folder: Path, participants: int) -> Iterator[tuple[str, list[str]]]:
             process.wait()
 
 
-async def take_part(address: str, code: str, tally: Tally, *, every_s: float = 0.0) -> None:
+async def take_part(address: str, code: str, tally: Tally) -> None:
     """Answer all pages as one participant."""
     browser = Browser(address)
     page = await browser.get(f"/InitializeParticipant/{code}")
     await tally.door.wait()
-    pace = Pace(code, every_s)
     while 'name="rating"' in page.text:
         fields = dict(
             re.findall(r"<input type=.hidden. name=['\"](\w+)['\"] value=['\"]([^'\"]*)['\"]", page.text)
         )
         path = browser.path
-        due = await pace.wait()
-        sent = await tally.time(browser.post(path, fields | {"rating": "3"}, follow=False), due=due)
-        page = await browser.get(sent.headers.get("location", path).removeprefix(address))
+        sent = await tally.answer(browser.post(path, fields | {"rating": "3"}, follow=False))
+        page = await tally.page(browser.get(sent.headers.get("location", path).removeprefix(address)))
     browser.close()
 
 

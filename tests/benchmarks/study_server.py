@@ -13,7 +13,7 @@ from pathlib import Path
 from random import getrandbits
 from uuid import UUID
 
-from tests.benchmarks.load import Browser, Pace, Tally
+from tests.benchmarks.load import Browser, Tally
 
 PROTOCOL = Path("protocols/hielscher2025")
 PAGE = re.compile(r'<script type="application/json" id="page">(.*?)</script>', re.DOTALL)
@@ -61,7 +61,6 @@ async def take_part(
     address: str,
     tally: Tally,
     *,
-    every_s: float = 0.0,
     acknowledged: Callable[[str], object] = lambda _: None,
 ) -> None:
     """Take the study again and again, each time as somebody else, from somewhere else."""
@@ -72,15 +71,13 @@ async def take_part(
         page = await browser.post("/consent", {"agreed": "yes", "language": "en"})
         if time == 0:
             await tally.door.wait()
-            pace = Pace(number, every_s)
         while found := PAGE.search(page.text):
             submission = _answered(json.loads(found[1]), page.text)
-            due = await pace.wait()
             sending = browser.post_json("/study/answers", json.dumps(submission).encode())
-            sent = await tally.time(sending, due=due)
+            sent = await tally.answer(sending)
             if sent.status == 200:
                 acknowledged(submission["id"])
-            page = await browser.get("/study")
+            page = await tally.page(browser.get("/study"))
         browser.close()
 
 
