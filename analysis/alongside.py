@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -18,7 +19,11 @@ def alongside(work: Callable[[], None]) -> Iterator[None]:
     or next to threads, whose locks nobody would open in the copy – the work is done after the block; also
     where the copy failed, so that faults are raised as ever.
     """
-    copy = os.fork() if sys.platform == "linux" and threading.active_count() == 1 else None
+    copy = None
+    if sys.platform == "linux" and threading.active_count() == 1:
+        # newer Pythons warn of all threads, of BLAS's too, which end by themselves before a fork
+        with warnings.catch_warnings(action="ignore", category=DeprecationWarning):
+            copy = os.fork()
     if copy == 0:
         _end_with(work)
     done = False

@@ -19,9 +19,7 @@ class Database:
     """An open database, and what each kind does in a way of its own."""
 
     engine: Engine
-    held: Callable[
-        [], AbstractContextManager[object]
-    ]  # by this server alone, or ServedByAnotherError says by whom
+    held: Callable[[], AbstractContextManager[object]]  # by this server, or ServedByAnotherError says by whom
     purge: Callable[[], None]  # leave no trace of rows that were deleted
 
 
