@@ -9,6 +9,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from PIL import Image
 
 from stimuli.errors import InputError
 from stimuli.rendering import Renderer
@@ -88,6 +89,20 @@ def test_a_changed_mesh_or_include_outside_the_folder_changes_the_hash(tmp_path:
     assert len(set(hashes)) == 3
     copied = shutil.copytree(tmp_path, tmp_path / "elsewhere")
     assert load_robot("robot.yaml", copied / "robot").sha256 == hashes[-1]
+
+
+def test_the_hash_is_the_same_wherever_meshes_and_pictures_lie(tmp_path: Path) -> None:
+    drawn = '<texture name="skin" type="2d" file="skin.png"/><material name="skin" texture="skin"/></asset>'
+    here, there = tmp_path / "here", tmp_path / "a" / "longer" / "path"
+    here.mkdir()
+    (here / "arm.obj").write_text(TETRAHEDRON)
+    Image.new("RGB", (2, 2), "red").save(here / "skin.png")
+    model = MJCF.replace("../parts", ".").replace('<include file="./arm.xml"/>', ARM[8:-10])
+    write(
+        here, "two.xml", model.replace("</asset>", drawn).replace('mesh="arm"', 'mesh="arm" material="skin"')
+    )
+    shutil.copytree(here, there)
+    assert load_robot("robot.yaml", there).sha256 == load_robot("robot.yaml", here).sha256
 
 
 def test_joints_that_an_mjcf_couples_follow_their_leader(tmp_path: Path) -> None:
