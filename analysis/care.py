@@ -63,7 +63,8 @@ def _own_sd(question: Answers) -> FloatArray:
     """Standard deviation of each participant's ratings (participants,), NaN of fewer than two."""
     people = np.arange(len(question.participants))
     given = np.zeros((people.size, len(question.options) + 1), dtype=np.int32)  # the last: no answer
-    for column in question.codes.reshape(people.size, -1).T:
+    _, stimuli, items = question.codes.shape
+    for column in question.codes.reshape(people.size, stimuli * items).T:
         given[people, column] += 1
     counts, points = given[:, :-1], np.array([float(option) for option in question.options])
     n = counts.sum(axis=1)

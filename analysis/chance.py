@@ -92,15 +92,19 @@ def other_items(target: Target) -> Scores:
 
 def equal_share(target: Target) -> Scores:
     """The target's share of all points given to the stimulus, against 1 / items."""
-    totals = target.of_stimulus.sum(axis=1)
-    return Scores(target.on_target / totals, null=1 / target.ratings.shape[2])
+    return _share_of_points(target, above=0)
 
 
 def equal_share_above_lowest(target: Target) -> Scores:
-    """The same share counted from the lowest point as zero; all at zero counts as an equal share."""
-    above = target.of_stimulus - target.scale[0]
-    totals, equal = above.sum(axis=1), 1 / above.shape[1]
-    shares = np.where(totals == 0, equal, above[:, target.item] / np.where(totals == 0, 1, totals))
+    """The same share counted from the lowest point as zero."""
+    return _share_of_points(target, above=target.scale[0])
+
+
+def _share_of_points(target: Target, above: float) -> Scores:
+    """The target's share of the points above some; no points at all count as an equal share."""
+    points = target.of_stimulus - above
+    totals, equal = points.sum(axis=1), 1 / points.shape[1]
+    shares = np.where(totals == 0, equal, points[:, target.item] / np.where(totals == 0, 1, totals))
     return Scores(shares, null=equal)
 
 

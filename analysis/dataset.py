@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from study.protocol import Protocol
 
 
+DIGITS = 9  # of a trial's place at most; what has more is a moment or the like
+
+
 @dataclass(frozen=True)
 class Responses:
     """All answers of a study that a test could use."""
@@ -200,7 +203,16 @@ def _question_of_each_row(rows: Rows, protocol: Protocol, questions: Sequence[An
     table = places.reshape(len(stimuli), len(names))
     which: NDArray[np.int16] = table[rows.columns["stimulus"].codes, rows.columns["item"].codes]
     if "part" in rows.columns:  # rows of pages that belong to no part: demographics, attention checks
-        which[rows.codes("part", {"": 0} | dict.fromkeys(protocol.parts, 0)) < 0] = unasked
+        elsewhere = rows.codes("part", {"": 0} | dict.fromkeys(protocol.parts, 0)) < 0
+        rows.refuse_if(
+            elsewhere & (which >= 0),
+            lambda row: (
+                f"part {rows.value('part', row)!r} is not in the protocol, though stimulus "
+                f"{rows.value('stimulus', row)!r} is; known: {', '.join(protocol.parts)}. "
+                "Where the column means something else, leave it out with --column part="
+            ),
+        )
+        which[elsewhere] = unasked
     rows.refuse_if(
         which == unknown_stimulus,
         lambda row: (
@@ -245,8 +257,8 @@ def _trials(rows: Rows, protocol: Protocol) -> dict[str, FloatArray]:
     """When in its part each participant saw each stimulus, by the column `trial`."""
     if "trial" not in rows.columns:
         return {}
-    number = {name: int(name) if name.isdecimal() else MISSING for name in rows.names("trial")}
-    trial = rows.codes("trial", number)
+    names = (name for name in rows.names("trial") if name.isdecimal() and len(name) <= DIGITS)
+    trial = rows.codes("trial", {name: int(name) for name in names})
     seen = {}
     for part in protocol.parts.values():
         stimulus = rows.codes("stimulus", {name: i for i, name in enumerate(part.stimuli)})

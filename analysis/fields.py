@@ -40,7 +40,7 @@ class Fields:
 def delimiter(path: Path) -> str:
     """Comma, semicolon or tab: whichever the header has most of."""
     with path.open(encoding="utf-8-sig", errors="replace") as file:
-        header = file.readline(BLOCK)
+        header = next(filter(str.strip, iter(lambda: file.readline(BLOCK), "")), "")
     return max(",;\t", key=header.count)
 
 

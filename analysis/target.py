@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isclose
 
 from analysis.answers import Answers
 from analysis.chance import Definition, Scores, Target, applicable
 from analysis.statistics.adjustment import Correction, adjust
 from analysis.statistics.binomial import Binomial, binomial
 from analysis.statistics.one_sample_t import METHOD, one_sample_t
-from analysis.statistics.samples import Moments, moments, observed
+from analysis.statistics.samples import ROUNDING, Moments, moments, observed
 from analysis.statistics.sign_flip import SignFlip, sign_flip
 from analysis.statistics.t_test import Alternative, TTest
 from analysis.statistics.wilcoxon import Wilcoxon, wilcoxon
@@ -174,7 +175,12 @@ def judge(judging: Judging, family: Mapping[str, tuple[str, float | None, str | 
     """Adjust the p-values of a family and decide at alpha."""
     adjusted = adjust({name: p for name, (_, p, _) in family.items()}, judging.correction)
     return {
-        name: Verdict(test, p, corrected, None if corrected is None else corrected < judging.alpha, note)
+        name: Verdict(test, p, corrected, _below(corrected, judging.alpha), note)
         for name, (test, p, note) in family.items()
         for corrected in [adjusted[name]]
     }
+
+
+def _below(p: float | None, alpha: float) -> bool | None:
+    """Whether p < α beyond the rounding of sums: exact tests of few participants can give α itself."""
+    return None if p is None else p < alpha and not isclose(p, alpha, rel_tol=ROUNDING)

@@ -66,6 +66,8 @@ def test_empty_and_absent_answers_are_missing(paper: Protocol, write: Write) -> 
     "﻿participant,stimulus,item,response\nP1,joy,joy,4\n",
     "participant;stimulus;item;response\nP1;joy;joy;4\n",
     "participant\tstimulus\titem\tresponse\r\nP1\tjoy\tjoy\t4\r\n",
+    "\r\nparticipant;stimulus;item;response\r\nP1;joy;joy;4\r\n",
+    "participant,trial,stimulus,item,response\nP1,1764000000000,joy,joy,4\n",
     'note,response,item,stimulus,participant\n"a, ""b""\nc",4,joy,joy,P1\n',
 ])  # fmt: skip
 def test_ways_of_writing_a_table_that_leave_no_doubt_are_read(
@@ -97,6 +99,7 @@ HEADER = "participant,stimulus,item,response\n"
     ("sep=;\n" + HEADER.replace(",", ";"), r"r.csv:1: 'sep=' is a line for Excel"),
     (HEADER + ",joy,joy,4\n", r"r.csv:2: has no participant"),
     (HEADER + " ,joy,joy,4\n", r"r.csv:2: has no participant"),
+    ("part," + HEADER + "recogniton,P1,joy,joy,4\n", r"r.csv:2: part 'recogniton' is not in the protocol"),
 ])  # fmt: skip
 def test_what_cannot_be_read_without_guessing_is_refused_at_its_line(
     paper: Protocol, tmp_path: Path, text: str, message: str

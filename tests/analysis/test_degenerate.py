@@ -28,6 +28,7 @@ CASES: dict[str, list[Row]] = {
     "two participants": [*ratings(n=2), *choices(n=2)],
     "everyone answers the same": CONSTANT,
     "every second answer missing": [*ratings(n=8), *choices(n=8)][::2],
+    "everybody left out": [("P1", "joy", "joy", "4")],
     "one clip nobody rated": [row for row in [*ratings(n=9), *choices(n=9)] if row[1] != "fear"],
 }
 
@@ -43,8 +44,9 @@ def everyone(protocol: Protocol) -> Protocol:
 @pytest.mark.parametrize("case", CASES)
 def test_degenerate_responses_give_every_number_or_a_reason(case: str, paper: Protocol, write: Write) -> None:
     responses = read_responses(write(CASES[case]), paper)
-    findings = carry_out(responses, everyone(paper))
-    further = look_further(findings, responses, everyone(paper))
+    study = paper if case == "everybody left out" else everyone(paper)
+    findings = carry_out(responses, study)
+    further = look_further(findings, responses, study)
     results = Results(findings, Provenance("s", "p", "r", {}), further)
     text = json.dumps(results.as_json(), allow_nan=False)
     for part in ("recognition", "intensity"):

@@ -11,7 +11,7 @@ import pytest
 
 from analysis.answers import Answers
 from analysis.apa import number
-from analysis.chance import DEFINITIONS
+from analysis.chance import DEFINITIONS, Target
 from analysis.dataset import Responses, read_responses
 from analysis.exclusions import Flow
 from analysis.figures import draw_targets
@@ -151,3 +151,11 @@ def test_a_mean_on_a_slider_is_practically_at_chance_within_five_percent_of_it(p
     findings = Findings(responses, Flow(40, (), 40, ()), {"H1": outcome}, 0.05)
     close = look_further(findings, responses, paper).targets["H1"]["calm"].equivalence
     assert close is not None and close.bounds == (45, 55)
+
+
+def test_who_gives_no_points_at_all_gives_equal_shares() -> None:
+    codes = np.array([[[0, 0]], [[30, 10]], [[-1, 0]]], dtype=np.int8)
+    answers = Answers("p", ("1", "2", "3"), ("calm",), ("calm", "other"), tuple(map(str, range(101))), codes)
+    for name in ("equal share", "equal share above lowest"):
+        shares = DEFINITIONS[name].scores(Target(answers, 0, 0)).values
+        np.testing.assert_array_equal(shares, [0.5, 0.75, np.nan])

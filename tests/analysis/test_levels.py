@@ -46,6 +46,13 @@ def test_two_groups_without_variance_are_decided_by_their_permutations(
     assert found.deciding_t.reason == "undefined: zero variance in both groups"
 
 
+def test_a_p_that_is_alpha_is_not_below_it_for_rounding() -> None:
+    """R: fisher.test(matrix(c(3, 0, 0, 3), 2), alternative = "greater") is 1 of 20 tables, and not < 0.05."""
+    codes = np.array([[4, -1]] * 3 + [[-1, 1]] * 3)
+    found = levels(codes, "independent t", "greater", tuple("12345")).results["pair"]
+    assert (found.verdict.p, found.verdict.significant) == (pytest.approx(1 / 20), False)
+
+
 def test_a_test_that_is_undefined_confirms_nothing() -> None:
     codes = np.array([[4, -1]] * 4 + [[-1, 1]] * 4)
     found = levels(codes, "independent t", "greater", tuple("12345"))
