@@ -27,7 +27,9 @@ def sd_is_possible(sd: Decimal, mean: Decimal, n: int, items: int = 1) -> bool:
     value, half = Fraction(sd), _half(sd, SQUARED_DECIMALS)
     least, most = max(value - half, Fraction(0)) * items, (value + half) * items
     for total in counts_behind(mean, n * items):
-        squares = ceil((n - 1) * least**2 + Fraction(total**2, n))
+        each, more = divmod(total, n)  # at their most even, `more` people are one above the others
+        fewest = n * each**2 + more * (2 * each + 1)
+        squares = max(fewest, ceil((n - 1) * least**2 + Fraction(total**2, n)))
         squares += (squares - total) % 2
         if squares <= (n - 1) * most**2 + Fraction(total**2, n):
             return True

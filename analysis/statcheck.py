@@ -93,8 +93,8 @@ class Reading:
 
     def _unread(self) -> Iterator[str]:
         if self.tables:
-            what = "1 table was" if self.tables == 1 else f"{self.tables} tables were"
-            yield f"{what} not read: say how many participants are behind it, as in -n 34."
+            what, it = ("1 table was", "it") if self.tables == 1 else (f"{self.tables} tables were", "them")
+            yield f"{what} not read: say how many participants are behind {it}, as in -n 34."
 
 
 def read_text(path: Path) -> str:

@@ -187,6 +187,8 @@ GRIMMER = [
     ("2.68", "2.59", 34, 1, True),
     ("5.00", "2.18", 31, 1, True),
     ("2.74", "0.96", 63, 2, True),
+    ("2.50", "0.00", 8, 1, False),  # as even as whole answers can be, four 2 and four 3 differ by 0.53
+    ("2.50", "0.53", 8, 1, True),
 ]
 
 
