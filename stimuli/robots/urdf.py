@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import os
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from xml.parsers.expat import ExpatError
 
 from stimuli.errors import InputError
 from stimuli.lines import read_xml
+from stimuli.robots.belongings import keep_only_what_is_seen
 from stimuli.robots.meshes import read_pieces
 from stimuli.robots.mimics import Mimic, by_their_leaders
 from stimuli.robots.packages import PACKAGE, folders_of, package_folders
@@ -36,8 +38,7 @@ def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
     places = Places(source, lines)
     check_urdf(root, places)
     folders = folders_of(source, search)
-    if root.find("link/visual") is not None:
-        _keep_only_what_is_seen(root)
+    keep_only_what_is_seen(root)
     meshes: dict[str, bytes] = {}
     for link in root.iterfind("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
@@ -57,14 +58,14 @@ def read_urdf(source: Path, search: Sequence[Path] = ()) -> Urdf:
 def find_mesh(filename: str, beside: Path, folders: Sequence[Path], place: str) -> Path:
     """The file a mesh's name means. InputError where it is not there, saying where it was looked for."""
     if not filename.startswith(PACKAGE):
-        path = beside / filename.removeprefix("file://")
+        path = Path(os.path.normpath(beside / filename.removeprefix("file://")))
         if not path.is_file():
             raise InputError(f"{place}: the mesh {filename!r} is not there: {path}")
         return path
     roots, rest = package_folders(filename, folders)
-    for root in roots:
-        if (root / rest).is_file():
-            return root / rest
+    for path in (Path(os.path.normpath(root / rest)) for root in roots):
+        if path.is_file():
+            return path
     present = [root for root in roots if root.is_dir()]
     if present:
         raise InputError(f"{place}: the mesh {filename!r} is not in the package: {present[0] / rest}")
@@ -73,12 +74,6 @@ def find_mesh(filename: str, beside: Path, folders: Sequence[Path], place: str) 
         f"{place}: {filename!r}: there is no folder {package!r} in {looked}. Name the folder it lies in: "
         "`search: [PATH]` in the robot's YAML file."
     )
-
-
-def _keep_only_what_is_seen(root: ET.Element) -> None:
-    for link in root.iterfind("link"):
-        for collision in link.findall("collision"):
-            link.remove(collision)
 
 
 def _dressed(shape: ET.Element, path: Path, meshes: dict[str, bytes]) -> list[ET.Element]:

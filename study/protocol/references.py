@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from stimuli.robots.belongings import bound_names
 from study.protocol.contradiction import Contradiction, unknown
 from study.protocol.hypotheses import hypotheses
 from study.protocol.parts import BESIDE, NEUTRAL, PRACTICE
@@ -182,6 +183,11 @@ def _files(protocol: Protocol) -> Iterator[Contradiction]:
         if outside:
             needs = "" if outside == robot else f"needs {outside}, which "
             yield protocol.place_of_robot(robot), needs + LEAVES
+            continue
+        for name, remedy in bound_names(protocol.folder / robot, protocol.folder) if files else ():
+            lost = f"names {name}, which in a copy of the study would lead elsewhere; {remedy}"
+            yield protocol.place_of_robot(robot), lost
+            break
 
 
 def _leaves_the_folder(name: str) -> bool:

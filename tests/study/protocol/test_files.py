@@ -71,8 +71,19 @@ def test_a_change_in_any_file_of_a_robot_is_a_change_of_the_study(own, load, tmp
     refuse_undeclared(load(own), known)
 
 
-def test_every_file_that_mujoco_would_read_is_among_them(own, load, tmp_path):
+@pytest.mark.parametrize(
+    ("model", "include"),
+    [
+        (MJCF.format("arm"), "arm.xml"),
+        (MJCF.format("arm").replace("arm.xml", "arm.inc"), "arm.inc"),
+        (MJCF.format("nowhere/../arm").replace("more/arm.xml", "more\\\\arm"), "arm"),
+    ],
+)
+def test_every_file_that_mujoco_would_read_is_among_them(own, load, tmp_path, model, include):
     of_model(tmp_path, "two.xml")
+    (tmp_path / "robots" / "two.xml").write_text(model)
+    (tmp_path / "robots" / "more" / "arm.xml").rename(tmp_path / "robots" / "more" / include)
+    assert load_robot("robots/arm.yaml", tmp_path).joint_names == ("lift",)
     read = mujoco.mju_getXMLDependencies(str(tmp_path / "robots" / "two.xml"))
     files = load(own).files_of_robot("robots/arm.yaml")
     assert {os.path.relpath(file, tmp_path) for file in read} <= set(files)
@@ -95,6 +106,30 @@ def test_robots_outside_the_folder_are_refused(own, load, tmp_path, robot, meshe
     (problem,) = refused.value.problems
     assert problem.field == "robot" and message in problem.message
     (tmp_path.parent / "arm").rename(tmp_path / "robots" / "arm")
+
+
+@pytest.mark.parametrize(
+    ("mesh", "remedy"),
+    [
+        ("file://{0}/robots/arm/foot.obj", "as seen from the model"),
+        ("package://{0.name}/robots/arm/foot.obj", "put"),
+    ],
+)
+def test_names_that_lead_elsewhere_in_a_copy_are_refused(own, load, tmp_path, mesh, remedy):
+    name = mesh.format(tmp_path)
+    (tmp_path / "robots" / "two.urdf").write_text(URDF.replace("package://arm/foot.obj", name))
+    with pytest.raises(ProtocolError) as refused:
+        load(own)
+    (problem,) = refused.value.problems
+    assert problem.field == "robot" and f"names {name}, which in a copy" in problem.message
+    assert remedy in problem.message
+
+
+def test_a_shape_that_is_not_drawn_need_not_be_there(own, load, tmp_path):
+    collision = '<collision><geometry><mesh filename="package://arm/hull.obj"/></geometry></collision></link>'
+    (tmp_path / "robots" / "two.urdf").write_text(URDF.replace("</link>", collision, 1))
+    (tmp_path / "robots" / "arm" / "hull.obj").write_text(TETRAHEDRON)
+    assert load(own).files_of_robot("robots/arm.yaml") == OF_URDF
 
 
 def test_a_link_in_the_folder_is_taken_for_what_it_leads_to(own, load, tmp_path):
