@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
@@ -128,7 +128,7 @@ def guarded(response: str) -> str:
 
 
 def codebook(
-    protocol: Protocol, *, kind: Kind = "participant", earlier: Iterable[Protocol] = ()
+    protocol: Protocol, *, kind: Kind = "participant", earlier: Mapping[str, Protocol] | None = None
 ) -> dict[str, Any]:
     """What the columns, items and values of the table mean, now and before amendments."""
     return {
@@ -140,7 +140,7 @@ def codebook(
         "columns": COLUMNS,
         **_asked(protocol),
         "amendments": [amendment.model_dump(mode="json") for amendment in protocol.amendments],
-        "earlier": {before.sha256: _asked(before) for before in earlier},
+        "earlier": {sha256: _asked(before) for sha256, before in (earlier or {}).items()},
         "left out": "Practice trials.",
     }
 
@@ -167,11 +167,11 @@ def export_responses(
     *,
     kind: Kind = "participant",
     clips: ClipHashes | None = None,
-    earlier: Iterable[Protocol] = (),
+    earlier: Mapping[str, Protocol] | None = None,
 ) -> Path:
     """Write responses.csv, its codebook and all records as JSON into a folder; gives the path of the table.
 
-    `earlier` are the versions of the protocol that participants began with before amendments.
+    `earlier` are the versions of the protocol that participants began with before amendments, by hash.
     """
     out.mkdir(parents=True, exist_ok=True)
     table = out / "responses.csv"

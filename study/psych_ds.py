@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 from shutil import copyfile
 
@@ -31,11 +31,11 @@ def write_dataset(
     out: Path,
     *,
     kind: Kind = "participant",
-    earlier: Iterable[Protocol] = (),
+    earlier: Mapping[str, Protocol] | None = None,
 ) -> Path:
     """Write a dataset of an exported table, beside which is its codebook, into a folder; gives the folder.
 
-    `earlier` are the versions of the protocol that participants began with before amendments.
+    `earlier` are the versions of the protocol that participants began with before amendments, by hash.
     """
     for name in ("data", "documentation", "materials"):
         (out / name).mkdir(parents=True, exist_ok=True)
@@ -44,8 +44,8 @@ def write_dataset(
     book = table.with_suffix(".codebook.json")
     copyfile(book, out / "documentation" / book.name)
     copy_protocol(protocol, out / "materials")
-    for before in earlier:
-        copy_protocol(before, out / "materials" / VERSIONS / before.sha256)
+    for sha256, before in (earlier or {}).items():
+        copy_protocol(before, out / "materials" / VERSIONS / sha256)
     description = json.dumps(_description(protocol, kind), indent=2, ensure_ascii=False)
     (out / "dataset_description.json").write_text(description + "\n", encoding="utf-8")
     (out / "README.md").write_text(_readme(protocol, data.name, kind), encoding="utf-8")

@@ -15,6 +15,7 @@ from pathlib import Path
 from stimuli.manifest import Manifest
 from study.protocol import Problem, Protocol, ProtocolError, load_protocol
 from study.protocol.amendments import SHORT, as_replaced
+from study.protocol.references import leaves_the_folder
 from study.storage import open_store
 
 FOLDER = "versions"
@@ -75,7 +76,7 @@ def copy_protocol(protocol: Protocol, folder: Path) -> None:
     """Copy a protocol and the files it is made of into a folder, as far as they are there."""
     folder.mkdir(parents=True, exist_ok=True)
     for name in protocol.files:
-        if (protocol.folder / name).is_file():
+        if (protocol.folder / name).is_file() and not leaves_the_folder(name):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(protocol.folder / name, folder / name)
     shutil.copyfile(protocol.path, folder / "protocol.yaml")
@@ -85,4 +86,4 @@ def earlier_versions(protocol: Protocol, data: Path) -> Iterator[Version]:
     """The versions before this one that are kept. Raises ProtocolError where one can no longer be read."""
     for folder in sorted((data / FOLDER).glob("*/protocol.yaml")):
         if folder.parent.name not in {protocol.sha256} and not folder.parent.name.endswith(".part"):
-            yield Version(folder.parent.name, load_protocol(folder), Manifest.load(folder.parent))
+            yield Version(folder.parent.name, load_protocol(folder, kept=True), Manifest.load(folder.parent))

@@ -188,7 +188,7 @@ def export(
     manifests = {version.sha256: version.manifest for version in earlier}
     manifests[protocol.sha256] = Manifest.load(folder)
     files = {sha256: hashes(clips_of(manifest, folder)) for sha256, manifest in manifests.items()}
-    before = [version.protocol for version in earlier]
+    before = {version.sha256: version.protocol for version in earlier}
     table = export_responses(store, protocol, out, clips=files, earlier=before)
     store.close()
     dataset = write_dataset(protocol, table, out / "psych-ds", earlier=before)

@@ -21,11 +21,11 @@ from study.written import Location
 LEAVES = "leaves the study's folder; copy it there, so that the study can be kept whole and handed on"
 
 
-def contradictions(protocol: Protocol) -> Iterator[Contradiction]:
-    """Everything in a protocol that does not fit together."""
+def contradictions(protocol: Protocol, *, kept: bool = False) -> Iterator[Contradiction]:
+    """Everything in a protocol that does not fit together; of a kept copy, not where files lie."""
     lost = [*_stimuli(protocol), *_practice(protocol)]
     yield from lost
-    yield from _files(protocol)
+    yield from () if kept else _files(protocol)
     yield from _texts(protocol)
     yield from _questions(protocol)
     yield from _conditions(protocol)
@@ -175,11 +175,11 @@ def _attention(protocol: Protocol) -> Iterator[Contradiction]:
 def _files(protocol: Protocol) -> Iterator[Contradiction]:
     """Gestures and robots that would be missing from the copy kept of what participants began with."""
     for name, gesture in protocol.gestures.items():
-        if _leaves_the_folder(str(gesture.file)):
+        if leaves_the_folder(str(gesture.file)):
             yield ("gestures", name), LEAVES
     for robot in protocol.robots:
         files = protocol.files_of_robot(robot)  # none of a packaged one
-        outside = next((file for file in files and (robot, *files) if _leaves_the_folder(file)), None)
+        outside = next((file for file in files and (robot, *files) if leaves_the_folder(file)), None)
         if outside:
             needs = "" if outside == robot else f"needs {outside}, which "
             yield protocol.place_of_robot(robot), needs + LEAVES
@@ -190,7 +190,8 @@ def _files(protocol: Protocol) -> Iterator[Contradiction]:
             break
 
 
-def _leaves_the_folder(name: str) -> bool:
+def leaves_the_folder(name: str) -> bool:
+    """Whether a path leads out of the folder it is seen from, or may."""
     return Path(name).is_absolute() or ".." in Path(name).parts
 
 
@@ -206,7 +207,7 @@ def _texts(protocol: Protocol) -> Iterator[Contradiction]:
     for here, text in texts:
         for language, file in files_named_in(text, protocol.folder).items():
             place: Location = (*here, language) if language else here
-            if _leaves_the_folder(text.root[language]):
+            if leaves_the_folder(text.root[language]):
                 yield place, LEAVES
                 continue
             try:

@@ -192,7 +192,7 @@ def download_codebook(request: Request) -> Response:
     """What the table's columns and values mean."""
     require_login(request)
     site = site_of(request)
-    earlier = [before.protocol for before in site.earlier.values()]
+    earlier = {sha256: before.protocol for sha256, before in site.earlier.items()}
     book = codebook(site.protocol, kind=site.kind, earlier=earlier)
     content = json.dumps(book, indent=2, ensure_ascii=False)
     return _download(content, "application/json", "responses.codebook.json")

@@ -37,7 +37,7 @@ def test_the_protocol_is_there_whole_and_as_it_was_before_amendments(
     dataset: Path, protocol: Protocol, tmp_path: Path
 ) -> None:
     table = tmp_path / "export" / "responses.csv"
-    write_dataset(protocol, table, dataset, kind="simulated", earlier=[protocol])
+    write_dataset(protocol, table, dataset, kind="simulated", earlier={protocol.sha256: protocol})
     for kept in (dataset / "materials", dataset / "materials" / "versions" / protocol.sha256):
         assert load_protocol(kept).sha256 == protocol.sha256
     assert "`materials/versions/HASH`" in (dataset / "README.md").read_text("utf-8")

@@ -16,10 +16,10 @@ from typer.testing import CliRunner
 from stimuli.manifest import Clip as Rendered
 from stimuli.manifest import Manifest
 from study.cli import app
-from study.export import rows
+from study.export import codebook, rows
 from study.protocol import ProtocolError, load_protocol
 from study.simulation import PAGE
-from study.versions import FOLDER, earlier_versions, keep_version
+from study.versions import FOLDER, copy_protocol, earlier_versions, keep_version
 from study.web.app import create_app
 from study.web.overview import overview
 from study.web.participant import questions_of, steps_of
@@ -61,7 +61,9 @@ def amended(first: Site, tmp_path: Path) -> Site:
     change = (
         f"amendments: [{{date: 2026-11-22, reason: More to rate, replaces: {first.protocol.sha256[:12]}}}]\n"
     )
-    file.write_text(f"{written}demographics: []\n{change}", encoding="utf-8")
+    written = written.replace("How does the robot move?", "How does it move?")
+    texts = "texts: {debrief: It was about speed.}\ndemographics: []\n"
+    file.write_text(f"{written}{texts}{change}", encoding="utf-8")
     clips = manifest(first.clips, "amended")
     protocol = load_protocol(file)
     keep_version(protocol, clips, tmp_path / "data")
@@ -136,10 +138,32 @@ def test_the_copy_reads_as_the_study_did(first: Site, amended: Site, tmp_path: P
     }
 
 
+def test_a_copy_of_earlier_software_goes_by_its_hash_and_need_not_hold_its_robot(
+    first: Site, amended: Site, tmp_path: Path
+) -> None:
+    kept, older = tmp_path / "data" / FOLDER / first.protocol.sha256, "0" * 64
+    file = kept.rename(kept.with_name(older)) / "protocol.yaml"
+    robot = tmp_path / "robots" / "arm.yaml"
+    robot.parent.mkdir()
+    robot.write_text("robot: arm\ntitle: An arm\nmodel: arm.urdf\n", encoding="utf-8")
+    written = file.read_text(encoding="utf-8").replace("robot: pepper", f"robot: {robot}")
+    file.write_text(written, encoding="utf-8")
+    (version,) = earlier_versions(amended.protocol, tmp_path / "data")
+    assert version.protocol.robot == str(robot)
+    earlier = {version.sha256: version.protocol}
+    assert list(codebook(amended.protocol, earlier=earlier)["earlier"]) == [older]
+    copy_protocol(version.protocol, tmp_path / "dataset")
+    assert load_protocol(tmp_path / "dataset", kept=True).robot == str(robot)
+    assert list(tmp_path.rglob("arm.yaml")) == [robot]
+
+
 def test_whoever_began_before_finishes_the_study_they_began(
     begun: Visitor, first: Site, amended: Site
 ) -> None:
-    assert "You have reached the end" in begun.visit(amended, expected=first)
+    for pages in (0, 100):
+        seen = begun.visit(amended, pages, expected=first)
+        assert "How does the robot move?" in seen and "How does it move?" not in seen
+    assert "You have reached the end" in seen and "It was about speed." not in seen
     newcomer = Visitor()
     with (
         running(create_app(amended)) as address,
@@ -147,7 +171,8 @@ def test_whoever_began_before_finishes_the_study_they_began(
     ):
         browser.post("/start")
         newcomer.cookies = browser.cookies
-    assert "You have reached the end" in newcomer.visit(amended)
+    seen = newcomer.visit(amended)
+    assert "You have reached the end" in seen and "It was about speed." in seen
 
     table = list(rows(amended.store, clips=amended.clip_hashes))
     before, after = (
