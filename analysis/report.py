@@ -33,6 +33,7 @@ from analysis.tables import (
 from analysis.versions import of_one_study
 from analysis.web import html
 from analysis.words import labels_of
+from stimuli.whole_files import all_or_none
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -63,10 +64,11 @@ def analyse(
 ) -> Results:
     """Analyse responses as the protocol says and write everything into the folder `out`.
 
-    Writes results.json, report.html, report.pdf, tables/ (LaTeX and CSV) and figures/ (SVG, PDF, PNG). Equal
-    input gives equal bytes, so the time of the analysis is in them only where `analysed` says it. `columns`
-    says where the file calls a column otherwise. Raises ResponsesError where the file cannot be read without
-    guessing, PlanError where the plan does not fit the study.
+    Writes results.json, report.html, report.pdf, tables/ (LaTeX and CSV) and figures/ (SVG, PDF, PNG), all
+    of them or, where the run is ended or the disk is full, none. Equal input gives equal bytes, so the time
+    of the analysis is in them only where `analysed` says it. `columns` says where the file calls a column
+    otherwise. Raises ResponsesError where the file cannot be read without guessing, PlanError where the plan
+    does not fit the study.
     """
     with of_one_study(csv, protocol) as earlier:
         responses = replace(read_responses(csv, protocol, columns), earlier=earlier)
@@ -81,19 +83,20 @@ def analyse(
         analysed=analysed,
     )
     results = Results(findings, provenance, look_further(findings, responses, protocol))
-    _write(out, results, protocol)
+    with all_or_none(out) as folder:
+        _write(folder, results, protocol)
     return results
 
 
 def _write(out: Path, results: Results, protocol: Protocol) -> None:
-    """Write every file of the report into a folder."""
+    """Write every file of the report into an empty folder."""
     import matplotlib.backends.backend_pdf  # noqa: F401  once for both processes below
 
     findings = results.findings
     drawings = draw(findings, labels_of(protocol))
     figures = out / "figures"
-    for folder in (out, out / "tables", figures):
-        folder.mkdir(parents=True, exist_ok=True)
+    for folder in (out / "tables", figures):
+        folder.mkdir()
     for drawing in drawings.values():
         drawing.write_svg(figures)
 

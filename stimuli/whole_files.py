@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -29,9 +30,37 @@ def whole_or_nothing(path: Path) -> Iterator[Path]:
         partial.unlink(missing_ok=True)
 
 
+@contextmanager
+def all_or_none(folder: Path) -> Iterator[Path]:
+    """A folder to write into; its files move to `folder` when the block has ended well, else none of them.
+
+    Raises InputError where the system refuses to write.
+    """
+    partial = folder / f".files.{os.getpid()}.part"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        sweep(folder)
+        partial.mkdir()
+        yield partial
+        for path in sorted(path for path in partial.rglob("*") if path.is_file()):
+            place = folder / path.relative_to(partial)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            path.replace(place)
+    except OSError as error:
+        raise InputError(
+            f"{folder}: could not be written: {error.strerror or error}. Nothing half written is left, and "
+            "files that were there are as they were. Make room or name another folder."
+        ) from error
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+
+
 def sweep(folder: Path) -> None:
     """Remove what killed processes of this machine left half written."""
     for path in folder.glob(".*.part*"):
         pid = path.name.partition(".part")[0].rpartition(".")[2]
         if pid.isdigit() and not Path(f"/proc/{pid}").exists():
-            path.unlink(missing_ok=True)
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink(missing_ok=True)

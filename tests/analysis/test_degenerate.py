@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import resource
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from analysis.plan import carry_out
 from analysis.report import analyse, tables
 from analysis.results import Provenance, Results
 from analysis.web import html
+from stimuli.errors import InputError
 from study.protocol import Exclusions, Protocol, load_protocol
 from tests.analysis.conftest import EMOTIONS, PAPER, Row, Write, choices, ratings
 
@@ -66,6 +68,24 @@ def test_degenerate_responses_give_a_whole_report(
     assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
     assert (tmp_path / "figures" / "recognition.svg").exists()
     assert not (tmp_path / "figures" / "effects.svg").exists()  # an axis with nothing on it
+
+
+def test_a_report_for_which_there_is_no_room_leaves_the_one_before(
+    paper: Protocol, write: Write, tmp_path: Path
+) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "results.json").write_text("of before")
+    least, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, most))
+    try:
+        with pytest.raises(InputError, match=r"out: could not be written: File too large"):
+            analyse(write([*ratings(n=6), *choices(n=6)]), everyone(paper), tmp_path / "out")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (least, most))
+    assert [path.name for path in (tmp_path / "out").rglob("*")] == ["results.json"]
+    assert (tmp_path / "out" / "results.json").read_text() == "of before"
+    with pytest.raises(InputError, match=r"results.json: could not be written: File exists"):
+        analyse(write(ratings(n=2)), everyone(paper), tmp_path / "out" / "results.json")
 
 
 def test_simulated_answers_are_labelled_in_everything_written(paper: Protocol, tmp_path: Path) -> None:
