@@ -91,7 +91,7 @@ def judge(submission_id: UUID, step: str, *, pages: Sequence[Step], answered: di
     if step in answered:
         return Verdict.KNOWN if answered[step] == submission_id else Verdict.ELSEWHERE
     due = next_step(pages, answered)
-    if submission_id in answered.values():
+    if submission_id in tuple(answered.values()):  # at once: another thread adds to them
         return Verdict.NOT_YET  # a browser makes an id for one page only
     return Verdict.STORE if due is not None and due.key == step else Verdict.NOT_YET
 

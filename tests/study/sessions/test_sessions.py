@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -57,6 +57,19 @@ def test_only_the_page_that_is_due_is_stored_and_the_way_ends(plan: Plan) -> Non
         answered[page.key] = uuid4()
         assert judge(answered[page.key], page.key, pages=pages, answered=answered) is Verdict.KNOWN
     assert next_step(pages, answered) is None
+
+
+def test_what_is_stored_while_an_answer_is_judged_does_not_disturb() -> None:
+    class Compared(UUID):
+        def __eq__(self, other: object) -> bool:
+            answered[str(uuid4())] = uuid4()
+            return self is other
+
+        __hash__ = UUID.__hash__
+
+    pages = steps(Plan(0, "", "", ()))
+    answered: dict[str, UUID] = {step: Compared(int=1) for step in ("first", "second")}
+    assert judge(uuid4(), pages[0].key, pages=pages, answered=answered) is Verdict.STORE
 
 
 def seen(role: str, played_s: float, plays: int = 1) -> View:
