@@ -12,7 +12,7 @@ const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 export async function loadClip(clip, { progress, failed }) {
   for (let attempt = 0; attempt < TRIES; attempt += 1) {
     try {
-      const response = await fetch(clip.url);
+      const response = await fetch(clip.url, { cache: attempt ? "reload" : "default" }); // a kept copy may be the fault
       if (!response.ok) throw new Error(`HTTP ${response.status}`);
       const blob = await readAll(response, (bytes) => progress(bytes / clip.size));
       if (blob.size !== clip.size) throw new Error(`${blob.size} of ${clip.size} bytes`);

@@ -8,11 +8,14 @@ from dataclasses import replace
 
 import pytest
 from playwright.sync_api import Page, Route, expect
+from starlette.middleware.base import RequestResponseEndpoint
+from starlette.requests import Request
+from starlette.responses import Response
 
 from study.export import responses_json
 from study.protocol import load_protocol
 from study.responses import View
-from study.web.app import create_app
+from study.web.app import FOR_EVER, create_app
 from study.web.server import running
 from study.web.site import Site
 
@@ -154,6 +157,25 @@ def test_a_clip_that_can_not_be_loaded_whole_is_streamed(visit, page: Page, site
     assert view_sent(visit, site).streamed
     assert sum(site.store.event_counts("video_retried").values()) == 4
     assert site.store.event_counts("video_failed") == {}
+
+
+@pytest.mark.usefixtures("hasty")
+def test_a_copy_that_went_bad_in_the_browser_is_fetched_anew(visit, site: Site) -> None:
+    app, spoilt, sizes = create_app(site), set(), {clip.name: clip.size for clip in site.clips.values()}
+
+    @app.middleware("http")
+    async def spoil_once(request: Request, call_next: RequestResponseEndpoint) -> Response:
+        name = request.url.path.rpartition("/")[2]
+        if name not in sizes or name in spoilt:
+            return await call_next(request)
+        spoilt.add(name)
+        return Response(bytes(sizes[name]), headers=FOR_EVER)
+
+    with running(app) as visit.address:
+        come_to_the_practice(visit)
+        visit.watch()
+        assert not view_sent(visit, site).streamed
+    assert sum(site.store.event_counts("video_retried").values()) == 1
 
 
 @pytest.mark.usefixtures("hasty")
