@@ -122,7 +122,7 @@ async def live(request: Request) -> Response:
 
     async def changes() -> AsyncIterator[str]:
         shown = ""
-        while not (request.app.state.is_stopping() or await request.is_disconnected()):
+        while role_of(request) and not (request.app.state.is_stopping() or await request.is_disconnected()):
             now = await run_in_threadpool(_live_part, request)
             if now != shown:
                 yield "".join(f"data: {line}\n" for line in now.splitlines()) + "\n"

@@ -91,6 +91,22 @@ def test_the_page_is_told_of_changes_as_they_happen(experimenter: httpx.Client, 
     assert overview(rehearsed).withdrawn == 1
 
 
+def test_the_live_page_ends_in_peace_when_the_login_does(
+    rehearsed: Site, capfd: pytest.CaptureFixture[str]
+) -> None:
+    later = [timedelta()]
+    site = replace(rehearsed, clock=lambda: rehearsed.clock() + later[0])
+    cookies = {"experimenter": site.credentials.cookie("edit", site.clock())}
+    with running(create_app(site)) as address, httpx.Client(base_url=address, cookies=cookies) as client:
+        with client.stream("GET", "/experimenter/live") as stream:
+            parts = events(stream)
+            next(parts)
+            later[0] = timedelta(days=1)
+            assert list(parts) == []
+        assert client.get("/experimenter/live").status_code == 401
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
 def events(stream: httpx.Response) -> Iterator[str]:
     lines: list[str] = []
     for line in stream.iter_lines():
