@@ -9,13 +9,14 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, Response
 from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 
 from study.storage.database import ServedByAnotherError
 from study.web import entry, experimenter, participant
 from study.web.language import load_language
 from study.web.limits import Limits
 from study.web.pages import STATIC, render, static_version
-from study.web.security import Guard
+from study.web.security import HEADERS, Guard
 from study.web.site import Site
 from study.web.turns import Turns
 from study.web.visitor import has_token, language_of
@@ -87,6 +88,10 @@ def create_app(site: Site) -> FastAPI:
                 say("Please wait a little"),
                 say("There were too many attempts. Please try again in a minute."),
             ),
+            500: (
+                say("This did not work"),
+                say("What you sent before is safe. Please wait a minute, then reload this page."),
+            ),
             503: (
                 say("Nothing can be stored at the moment"),
                 say("What you sent before is safe. Please wait a minute, then reload this page."),
@@ -131,5 +136,17 @@ def create_app(site: Site) -> FastAPI:
         site.store.forget()
         unavailable = HTTPException(503, "cannot be stored now", {"Retry-After": str(TRY_AGAIN_S)})
         return await say_what_went_wrong(request, unavailable)
+
+    @app.exception_handler(ClientDisconnect)
+    async def say_nothing(_: Request, __: ClientDisconnect) -> Response:
+        """Who left while they were sending hears nothing any more; their browser sends it again."""
+        return Response(status_code=400)
+
+    @app.exception_handler(Exception)
+    async def say_that_the_fault_is_ours(request: Request, _: Exception) -> Response:
+        """Told from outside the guard; the server's log has what it was."""
+        page = await say_what_went_wrong(request, HTTPException(500))
+        page.headers.update(HEADERS)
+        return page
 
     return app

@@ -80,24 +80,27 @@ async def study(request: Request) -> Response:
     pages = steps_of(begun, session, visit.given)
     step = next_step(pages, visit.answered)
     if step is None:
-        return _the_end(request, visit.participant, session)
+        return _the_end(request, begun, visit.participant, session)
     now = site.clock()
     if step.key in visit.shown:
+        require(limits_of(request).sendings, visit.participant.name)
         site.store.log("page_reopened", step.key, participant=visit.participant.name, now=now)
     else:
         site.store.show_page(visit, step.key, now=now)
     return step_page(request.app, begun, visit.participant, session, step, pages)
 
 
-def _the_end(request: Request, participant: Participant, session: Session) -> Response:
-    site = site_of(request)
+def _the_end(request: Request, begun: Site, participant: Participant, session: Session) -> Response:
+    site, language = site_of(request), session.language
     recruitment = site.protocol.participants.recruitment
     external_id = site.store.contact(participant.name).external_id if recruitment.completion_url else None
     return render(
         request,
         "debrief.html",
-        language=session.language,
+        language=language,
         kind=participant.kind,
+        study_title=begun.protocol.title.in_(language),
+        debrief=begun.protocol.texts.debrief.in_(language),
         completion_code=session.completion_code,
         service=recruitment.called,
         completion_url=recruitment.completion_address(external_id=external_id, code=session.completion_code),
@@ -139,7 +142,9 @@ def _changed(request: Request, participant: Participant, language: str) -> Respo
 def consent(request: Request, agreed: Annotated[str, Form()], language: Annotated[str, Form()]) -> Response:
     """Consent: the moment the session begins and all its orders are drawn and kept."""
     site, participant = site_of(request), participant_of(request)
-    if participant is None or agreed != "yes" or language not in site.protocol.languages:
+    if participant is None:  # withdrawn in another tab
+        return to(request, "entry")
+    if agreed != "yes" or language not in site.protocol.languages:
         raise HTTPException(400)
     if site.store.phase != "open":
         return to(request, "study")
@@ -194,7 +199,8 @@ async def answers(request: Request) -> JSONResponse:
 
 async def _submission_in(request: Request) -> Submission:
     content = await request.body()
-    if not request.headers.get("content-type", "").startswith("application/json"):  # as other sites' forms
+    kind, _, _ = request.headers.get("content-type", "").partition(";")
+    if kind.strip().lower() != "application/json":  # as other sites' forms
         raise RequestValidationError([{"loc": ("content-type",), "msg": "must be application/json"}])
     try:
         return Submission.model_validate_json(content)

@@ -18,7 +18,7 @@ from study.web.language import load_language
 from study.web.pages import fill, url
 from study.web.site import Clip, Site
 
-FACTS = Markup("\0")  # holds their place while a page is made; no text has this character
+FACTS = Markup("<facts>")  # holds their place while a page is made; no text comes in with a tag of this name
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,7 @@ class Sheet:
     seen_by: Kind
     number: int
     total: int
+    study_title: str
     heading: str
     instructions: str
     description: str  # of the clips
@@ -86,6 +87,7 @@ def _sheet(site: Site, seen_by: Kind, language: str, step: Step, number: int, to
         seen_by=seen_by,
         number=number,
         total=total,
+        study_title=protocol.title.in_(language),
         heading=part.title.in_(language) if part else say("Before we start"),
         instructions=intro.in_(language) if step.kind == "instructions" else "",
         description=described.in_(language) if described else robot,
@@ -99,7 +101,13 @@ def _sheet(site: Site, seen_by: Kind, language: str, step: Step, number: int, to
 def _around_facts(app: FastAPI, sheet: Sheet) -> tuple[str, str]:
     """A page before and after the facts for its scripts, which are each participant's own."""
     page = fill(
-        app, f"{sheet.kind}.html", language=sheet.language, kind=sheet.seen_by, sheet=sheet, facts=FACTS
+        app,
+        f"{sheet.kind}.html",
+        language=sheet.language,
+        kind=sheet.seen_by,
+        study_title=sheet.study_title,
+        sheet=sheet,
+        facts=FACTS,
     )
     before, _, after = page.partition(FACTS)
     return before, after

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import socket
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -119,7 +120,8 @@ def test_a_cookie_of_somebody_who_withdrew_opens_nothing(visitor: httpx.Client, 
     with other_tab:
         assert other_tab.post("/study/answers", json=sent()).status_code == 409
         assert other_tab.post("/study/events", json={"name": "video_failed"}).status_code == 409
-        assert other_tab.post("/consent", data={"agreed": "yes", "language": "en"}).status_code == 400
+        consented = other_tab.post("/consent", data={"agreed": "yes", "language": "en"})
+        assert consented.headers["location"] == "/"
         assert other_tab.get("/study").headers["location"] == "/"
         assert other_tab.get("/").status_code == 200
     assert (stored(site), len(site.store.withdrawals())) == ([], 1)
@@ -157,6 +159,33 @@ def test_who_takes_part_may_withdraw_though_somebody_beside_them_guessed_codes(
     assert visitor.post("/code", data={"code": "guess"}).status_code == 429
     assert visitor.post("/withdraw", data={"sure": "yes"}).status_code == 200
     assert len(site.store.withdrawals()) == 1
+
+
+def test_who_is_gone_while_they_send_leaves_no_trace_in_the_log(
+    capfd: pytest.CaptureFixture[str], visitor: httpx.Client, site: Site
+) -> None:
+    token, address = visitor.cookies["participant"], (visitor.base_url.host, visitor.base_url.port)
+    head = f"Host: x\r\nCookie: participant={token}\r\nContent-Type: application/json\r\n"
+    with socket.create_connection(address) as connection:
+        connection.sendall(f"POST /study/answers HTTP/1.1\r\n{head}Content-Length: 99\r\n\r\n{{".encode())
+    assert visitor.post("/study/answers", json=sent()).status_code == 200
+    assert "Traceback" not in "".join(capfd.readouterr())
+    assert stored(site) == [{"age": "34"}]
+
+
+@pytest.mark.parametrize("origin", ["null", "http://elsewhere.example", "http://[", "//"])
+def test_an_origin_that_is_not_ours_is_refused_however_it_is_written(
+    visitor: httpx.Client, site: Site, origin: str
+) -> None:
+    refused = visitor.post("/study/answers", json=sent(), headers={"Origin": origin})
+    assert refused.status_code == 403
+    assert stored(site) == []
+
+
+@pytest.mark.parametrize("kind", ["Application/JSON", "application/json ; charset=utf-8"])
+def test_json_may_be_called_so_in_any_spelling(visitor: httpx.Client, kind: str) -> None:
+    sent_so = visitor.post("/study/answers", content=json.dumps(sent()), headers={"Content-Type": kind})
+    assert sent_so.status_code == 200
 
 
 def test_withdrawing_is_never_taken_for_granted(visitor: httpx.Client, site: Site) -> None:

@@ -8,6 +8,7 @@ import io
 import json
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 from uuid import uuid4
 
@@ -15,8 +16,11 @@ import httpx
 import pytest
 
 from study.export import COLUMNS, responses_json
+from study.text import Text
+from study.web.app import create_app
 from study.web.participant import questions_of, steps_of
 from study.web.security import HEADERS
+from study.web.server import running
 from study.web.site import Site
 
 PASSWORD = "correct horse"  # as in the fixture `site`
@@ -45,6 +49,16 @@ def page_of(response: httpx.Response) -> dict[str, Any]:
 def begin(visitor: httpx.Client) -> dict[str, Any]:
     visitor.post("/start")
     return page_of(visitor.post("/consent", data={"agreed": "yes", "language": "en"}))
+
+
+def test_a_strange_title_leaves_the_page_whole(site: Site) -> None:
+    title = Text("\0 <facts> </script>")
+    strange = replace(site, protocol=site.protocol.model_copy(update={"title": title}))
+    with (
+        running(create_app(strange)) as address,
+        httpx.Client(base_url=address, follow_redirects=True) as visitor,
+    ):
+        assert begin(visitor)["step"] == "demographics"
 
 
 def submission(step: str, answers: dict[str, str] | None = None, **more: Any) -> dict[str, Any]:

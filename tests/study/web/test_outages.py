@@ -13,6 +13,7 @@ import pytest
 from stimuli.errors import InputError
 from study.storage import open_store
 from study.web.app import create_app
+from study.web.security import HEADERS
 from study.web.server import running
 from study.web.site import Site
 
@@ -109,7 +110,10 @@ def test_a_fault_of_ours_is_not_called_one_of_the_disk(site: Site) -> None:
         raise InputError("joint 'Elbow' is not known")
 
     with running(app) as address:
-        assert httpx.get(f"{address}/fault").status_code == 500
+        told = httpx.get(f"{address}/fault")
+    assert told.status_code == 500
+    assert "What you sent before is safe" in told.text and "Elbow" not in told.text
+    assert {name: told.headers[name] for name in HEADERS} == HEADERS
 
 
 def test_what_postgresql_cannot_keep_is_refused(postgresql, site: Site) -> None:

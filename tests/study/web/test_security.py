@@ -127,6 +127,7 @@ def test_one_participant_cannot_flood_the_study(site: Site) -> None:
         sent = [visitor.post("/study/events", json=event).status_code for _ in range(4)]
         answer = {"id": str(uuid4()), "step": "demographics", "on_page_ms": 1}
         refused = visitor.post("/study/answers", json=answer)
+        assert visitor.get("/study").status_code == 429  # opened again, which would be noted
     assert sent == [204, 204, 204, 429]
     assert (refused.status_code, int(refused.headers["retry-after"]) > 0) == (429, True)
 
