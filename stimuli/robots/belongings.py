@@ -94,7 +94,7 @@ def _elements(model: Path) -> list[ET.Element]:
         root, _ = read_xml(model)
     except (OSError, ExpatError):
         return []
-    if model.suffix == ".urdf":  # else it is MuJoCo that reads it, whole
+    if model.suffix.lower() == ".urdf":  # else it is MuJoCo that reads it, whole
         keep_only_what_is_seen(root)
     return list(root.iter())
 

@@ -64,7 +64,7 @@ def robot_from(facts: RobotFile, place: Place, folder: Path) -> Robot:
     else:
         source, search, origin = folder / facts.model, (), facts.model
     body = Body(source, (*(folder / other for other in facts.search), *search))
-    urdf = read_urdf(source, body.search) if source.suffix == ".urdf" else None
+    urdf = read_urdf(source, body.search) if source.suffix.lower() == ".urdf" else None
     spec = build(body)
     model = spec.compile()
     mimics = urdf.mimics if urdf else coupled(model, source)
@@ -76,9 +76,11 @@ def robot_from(facts: RobotFile, place: Place, folder: Path) -> Robot:
     home = {j.name: facts.home.get(j.name, min(max(0.0, j.lower), j.upper)) for j in every}
     for joint in every:
         if not joint.lower <= home[joint.name] <= joint.upper:
+            led = any(mimic.joint == joint.name for mimic in mimics.values())
+            why = "; joints that follow it keep to theirs" if led else ""
             raise InputError(
                 f"{place(('home', joint.name))}: {home[joint.name]:g} is outside the joint's range, "
-                f"{joint.lower:g} to {joint.upper:g} {joint.unit}"
+                f"{joint.lower:g} to {joint.upper:g} {joint.unit}{why}"
             )
     body = replace(body, look=facts.look, lift_m=-_lowest(model, mimicked(home, mimics)))
     return Robot(
@@ -102,7 +104,7 @@ def build(body: Body) -> mujoco.MjSpec:
     source = body.source
     mujoco.mj_clearCache(mujoco.mj_getCache())  # it tells a changed mesh by the second alone
     try:
-        if source.suffix == ".urdf":
+        if source.suffix.lower() == ".urdf":
             urdf = read_urdf(source, body.search)
             spec = mujoco.MjSpec.from_string(urdf.xml, assets=dict(urdf.meshes))
         else:

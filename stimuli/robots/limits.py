@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from stimuli.robots.mimics import Mimic
-from stimuli.robots.model import JointKind
+if TYPE_CHECKING:
+    from stimuli.robots.mimics import Mimic
+    from stimuli.robots.model import JointKind
 
 FURTHEST_M = 100.0  # of anything on a robot
 MOST_TURNS = 10

@@ -37,6 +37,7 @@ from pydantic import (
 
 from stimuli.errors import InputError, nearest
 from stimuli.lines import line_of, refuse_doubles
+from stimuli.robots.limits import FASTEST
 from stimuli.robots.model import Relation, View
 
 if TYPE_CHECKING:
@@ -77,7 +78,7 @@ class RobotFile(BaseModel):
     model: str
     search: tuple[Path, ...] = ()
     home: Mapping[str, float] = Field(default_factory=dict)
-    velocities: Mapping[str, PositiveFloat] = Field(default_factory=dict)
+    velocities: Mapping[str, Annotated[PositiveFloat, Field(le=FASTEST)]] = Field(default_factory=dict)
     hands: tuple[str, ...] = ()
     head: str | None = None
     relations: tuple[Annotated[Relation, _fields_of(Relation)], ...] | None = None

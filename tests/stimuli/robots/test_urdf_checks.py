@@ -101,6 +101,17 @@ def test_a_leader_goes_as_far_and_fast_as_those_that_follow_it_may(
     assert (turn.lower, turn.upper, turn.max_velocity) == pytest.approx((lower, upper, velocity))
 
 
+def test_a_home_beyond_what_followers_leave_is_refused_with_the_reason(tmp_path: Path) -> None:
+    follows = '<mimic joint="turn" multiplier="0.5"/>' + REACH
+    (tmp_path / "LIFT.URDF").write_text(URDF.replace(REACH, follows), encoding="utf-8")
+    yaml = "robot: lift\ntitle: A lift\nmodel: LIFT.URDF\nhome: {turn: 0.9}\n"
+    (tmp_path / "lift.yaml").write_text(yaml)
+    with pytest.raises(
+        InputError, match=r"lift\.yaml:4: .* 0 to 0\.6 rad; joints that follow it keep to theirs"
+    ):
+        load_robot("lift.yaml", tmp_path)
+
+
 def test_a_follower_that_leaves_its_leader_no_room_is_refused(tmp_path: Path) -> None:
     follows = '<mimic joint="turn" offset="5"/>' + REACH
     (tmp_path / "lift.urdf").write_text(URDF.replace(REACH, follows), encoding="utf-8")
