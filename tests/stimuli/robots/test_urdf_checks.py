@@ -106,9 +106,7 @@ def test_a_home_beyond_what_followers_leave_is_refused_with_the_reason(tmp_path:
     (tmp_path / "LIFT.URDF").write_text(URDF.replace(REACH, follows), encoding="utf-8")
     yaml = "robot: lift\ntitle: A lift\nmodel: LIFT.URDF\nhome: {turn: 0.9}\n"
     (tmp_path / "lift.yaml").write_text(yaml)
-    with pytest.raises(
-        InputError, match=r"lift\.yaml:4: .* 0 to 0\.6 rad; joints that follow it keep to"
-    ):
+    with pytest.raises(InputError, match=r"lift\.yaml:4: .* 0 to 0\.6 rad; joints that follow it keep to"):
         load_robot("lift.yaml", tmp_path)
 
 
