@@ -18,8 +18,24 @@ export class Outbox {
 
   #wake = null;
 
-  get #waiting() { return JSON.parse(localStorage.getItem(this.#key) ?? "[]"); }
-  set #waiting(submissions) { localStorage.setItem(this.#key, JSON.stringify(submissions)); }
+  #unstored = null; // what the browser refuses to store, as some apps' own browsers do: kept while the page is open
+
+  get #waiting() {
+    try {
+      return this.#unstored ?? JSON.parse(localStorage.getItem(this.#key) ?? "[]");
+    } catch {
+      return [];
+    }
+  }
+
+  set #waiting(submissions) {
+    try {
+      localStorage.setItem(this.#key, JSON.stringify(submissions));
+      this.#unstored = null;
+    } catch {
+      this.#unstored = submissions;
+    }
+  }
 
   get empty() { return this.#waiting.length === 0; }
 

@@ -58,6 +58,23 @@ def test_what_refuses_answers_on_their_way_is_said_and_loses_none(visit, page: P
     assert len(stored(site)) == 1
 
 
+@pytest.mark.parametrize(
+    "fault",
+    [
+        "Object.defineProperty(window, 'localStorage', { value: null })",
+        "Storage.prototype.setItem = () => { throw new DOMException('full', 'QuotaExceededError'); }",
+    ],
+)
+def test_a_browser_that_stores_nothing_sends_answers_all_the_same(
+    visit, page: Page, site: Site, fault: str
+) -> None:
+    page.context.add_init_script(fault)
+    visit.skip_to(1)
+    page.get_by_label("How old are you?").fill("34")
+    visit.proceed()
+    assert stored(site) == [{"age": "34", "gender": ""}]
+
+
 def test_a_double_click_answers_once(visit, page: Page, site: Site) -> None:
     visit.skip_to(1)
     page.get_by_role("button", name="Continue", exact=True).dblclick()
