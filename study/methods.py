@@ -9,6 +9,7 @@ from importlib.metadata import version
 from stimuli.principles import PRINCIPLES, Modulation
 from study.power import power
 from study.protocol import BESIDE, PRACTICE, Part, Protocol
+from study.specs import robot_titles
 from study.words import (
     asked,
     beside_the_test,
@@ -69,7 +70,9 @@ def _stimuli(protocol: Protocol) -> Iterator[str]:
     used = {kind for stimulus in protocol.stimuli.values() for kind in stimulus.modulation.model_dump()}
     principles = [principle.title for kind, principle in PRINCIPLES.items() if kind in used]
     yield f"We demonstrated {count(len(protocol.gestures), 'gesture')} ({listed(protocol.gestures)})"
-    yield f"for the robot {listed(protocol.robots)}. Each was learned as a Dynamic Movement Primitive"
+    several = "s" if len(protocol.robots) > 1 else ""
+    yield f"for the robot{several} {listed(robot_titles(protocol))}."
+    yield "Each was learned as a Dynamic Movement Primitive"
     yield f"({protocol.learning.n_weights} basis functions, gain {protocol.learning.alpha:g})"
     yield f"and modulated by {listed(principles)}," if principles else "and replayed,"
     practised = len(protocol.stimuli) - sum(s.id not in {PRACTICE, BESIDE} for s in protocol.stimuli.values())

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from study.orders import ALGORITHM, cycle
 from study.power import power
 from study.protocol import Part, Protocol
-from study.specs import specs
+from study.specs import robot_titles, specs
 from study.words import (
     asked,
     beside_the_test,
@@ -105,7 +105,7 @@ def _stimuli(protocol: Protocol) -> Iterator[str]:
     yield from ("", "## Stimuli", "")
     video = protocol.video
     learning = protocol.learning
-    yield f"Robot: {listed(protocol.robots)}. Gestures are learned as Dynamic Movement Primitives"
+    yield f"Robot: {listed(robot_titles(protocol))}. Gestures are learned as Dynamic Movement Primitives"
     yield f"({parameters(learning.model_dump(mode='json'))}) and modulated by the parameters"
     yield "below, angles in radians and times in seconds; what is not listed is neutral."
     yield f"Clips are rendered at {video.size} pixels and {video.fps} frames per second, without sound,"

@@ -6,7 +6,7 @@ import hashlib
 from functools import cache
 from pathlib import Path
 
-from stimuli.robots import load_robot
+from stimuli.robots import load_robot, title_of
 from stimuli.spec import StimulusSpec, Video
 from study.protocol import Protocol, ProtocolError
 
@@ -48,6 +48,11 @@ def specs(protocol: Protocol) -> dict[str, StimulusSpec]:
         for robot in [protocol.robot_of(stimulus.gesture)]
         for file in [protocol.folder / protocol.gestures[stimulus.gesture].file]
     }
+
+
+def robot_titles(protocol: Protocol) -> list[str]:
+    """What the robots are called that are seen. InputError where one's own file cannot be read."""
+    return [title_of(robot, protocol.folder) for robot in protocol.robots]
 
 
 def _sha256(file: Path) -> str:

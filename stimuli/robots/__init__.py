@@ -13,8 +13,9 @@ from pathlib import Path
 
 from stimuli.backends import backends
 from stimuli.errors import InputError, nearest
+from stimuli.robots.facts import read_facts
 from stimuli.robots.model import Robot
-from stimuli.robots.robot_file import ROBOT_FILES
+from stimuli.robots.robot_file import ROBOT_FILES, read_robot_file
 
 ROBOTS: tuple[str, ...] = tuple(
     sorted(
@@ -43,3 +44,12 @@ def load_robot(name_or_path: str, base: Path) -> Robot:
         f"robot: {name_or_path!r} is not a robot; {nearest(name_or_path, ROBOTS)}\n"
         "One of your own is the path of its YAML file, or robot_descriptions/NAME."
     )
+
+
+def title_of(name_or_path: str, base: Path) -> str:
+    """What a robot is called, for people to read; found without its model."""
+    if name_or_path in ROBOTS:
+        return read_facts(name_or_path).title
+    if name_or_path.endswith(ROBOT_FILES):
+        return read_robot_file(base / name_or_path)[0].title
+    return name_or_path

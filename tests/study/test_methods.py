@@ -16,7 +16,7 @@ PAPER = load_protocol(PROTOCOLS / "hielscher2025")
 def test_the_draft_says_what_was_done():
     draft = methods(PAPER)
     for said in (
-        "two gestures (explain and wave)",
+        "two gestures (explain and wave) for the robot Pepper. Each was learned",
         "and modulated by ",
         "Secondary Action",
         f"which gave {len(PAPER.stimuli)} stimuli",

@@ -10,6 +10,7 @@ import pytest
 
 from stimuli.robots import load_robot
 from study.protocol import ProtocolError
+from study.specs import robot_titles
 from study.versions import copy_protocol, refuse_undeclared
 
 URDF = """\
@@ -58,6 +59,7 @@ def test_a_change_in_any_file_of_a_robot_is_a_change_of_the_study(own, load, tmp
     of_model(tmp_path, model)
     assert load_robot("robots/arm.yaml", tmp_path).joint_names == ("lift",)
     begun = load(own)
+    assert robot_titles(begun) == ["Two links"]
     known = {begun.sha256}
     assert set(begun.files_of_robot("robots/arm.yaml")) == set(files)
     copy_protocol(begun, tmp_path / "kept")
