@@ -45,23 +45,24 @@ def _tests(outcome: Outcome) -> Iterator[tuple[str, str, Probabilities]]:
 def _of_targets(outcome: Targets) -> Iterator[tuple[str, str, Probabilities]]:
     if not all(isinstance(one.against.test, TTest) for one in outcome.results.values()):
         return
+    if outcome.judging.test == "wilcoxon":
+        return  # of ranks, which are neither normal nor evenly spaced
     yield (
         "normally distributed means",
         "exact sign flip",
         {key: one.against.exact.p for key, one in outcome.results.items()},
     )
-    if outcome.judging.test != "wilcoxon":
-        yield (
-            "equally spaced points",
-            "Wilcoxon's signed ranks",
-            {key: one.wilcoxon.p_decisive for key, one in outcome.results.items()},
-        )
+    yield (
+        "equally spaced points",
+        "Wilcoxon's signed ranks",
+        {key: one.wilcoxon.p_decisive for key, one in outcome.results.items()},
+    )
 
 
 def _of_levels(outcome: Levels) -> Iterator[tuple[str, str, Probabilities]]:
     results = outcome.results
-    if outcome.judging.test == "mcnemar":
-        return  # exact, and of the pairs themselves
+    if outcome.judging.test in {"mcnemar", "wilcoxon"}:
+        return  # exact, and of the pairs themselves; of ranks
     paired = outcome.judging.test in PAIRED
     if not paired:
         yield "equal variances", "Welch's t", {key: one.welch.p for key, one in results.items()}

@@ -87,6 +87,8 @@ def _outcome(
             pages.tabulate(
                 LEVEL_HEAD if outcome.comparison.outcome else ratings, _level_rows(outcome, labels)
             )
+        if outcome.judging.test in {"wilcoxon", "mcnemar"}:  # beside t and its p
+            pages.write(f"p adj. is by {outcome.judging.named}.")
     found = sentences(outcome)
     for place, (key, sentence) in enumerate(found.items(), start=2):
         last_but_one = place == len(found)  # the last does not stand alone on a page

@@ -205,10 +205,13 @@ def _recognised(one: Recognised, outcome: Targets) -> Json:
                 "id": DEFINITIONS[name].id,
                 "value": other.null,
                 "estimated": other.estimated,
-                **_against(other, one.sensitivity_verdicts[name]),
-                "significant": one.sensitivity_verdicts[name].significant,
+                **_against(other, verdict),
+                "p_adjusted": verdict.p_adjusted,
+                "decided_by": verdict.test,
+                "significant": verdict.significant,
             }
             for name, other in one.sensitivity.items()
+            for verdict in [one.sensitivity_verdicts[name]]
         },
         "depends_on_definition": one.depends_on_definition,
     }
@@ -216,7 +219,7 @@ def _recognised(one: Recognised, outcome: Targets) -> Json:
 
 def _against(result: AgainstChance, verdict: Verdict) -> Json:
     if isinstance(result.test, TTest):
-        return t_json(result.test, verdict)
+        return t_json(result.test, None if verdict.by else verdict)
     exact = {"hits": result.test.k, "p": result.test.p, "p_adjusted": verdict.p_adjusted}
     return t_json(result.t_test) | exact
 

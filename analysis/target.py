@@ -28,6 +28,11 @@ class Verdict:
     significant: bool | None
     note: str | None = None  # when another test than the declared one decides
 
+    @property
+    def by(self) -> str:
+        """The test that decided, where it was none of t; else empty."""
+        return "" if self.test.endswith(" t") else TEST_NAMES.get(self.test, self.test).removesuffix(" test")
+
 
 @dataclass(frozen=True)
 class AgainstChance:
@@ -108,14 +113,14 @@ def recognition(
         for stimulus, item in targets.items()
     }
     main = {s: against_chance(definition, target, judging.alternative) for s, target in places.items()}
-    ranks = {s: _wilcoxon(main[s], target, judging.alternative) for s, target in places.items()}
+    ranks = {s: _wilcoxon(main[s], target) for s, target in places.items()}
     sensitivity = {
         name: {s: against_chance(other, target, judging.alternative) for s, target in places.items()}
         for name, other in applicable(len(answers.stimuli), len(answers.items)).items()
     }
     verdicts = judge(judging, {s: _deciding(judging.test, main[s], ranks[s]) for s in targets})
     other_verdicts = {
-        name: judge(judging, {s: (_name(result), result.p, None) for s, result in results.items()})
+        name: judge(judging, {s: _alike(judging.test, result, places[s]) for s, result in results.items()})
         for name, results in sensitivity.items()
     }
     return {
@@ -153,9 +158,9 @@ def _hits(scores: Scores, alternative: Alternative) -> Binomial:
     return binomial(int(hits.sum()), hits.size, scores.null, alternative)
 
 
-def _wilcoxon(result: AgainstChance, target: Target, alternative: Alternative) -> Wilcoxon:
+def _wilcoxon(result: AgainstChance, target: Target) -> Wilcoxon:
     scores = result.definition.scores(target)
-    return wilcoxon(scores.values, scores.null, alternative)
+    return wilcoxon(scores.values, scores.null, result.exact.alternative)
 
 
 def _name(result: AgainstChance) -> str:
@@ -169,6 +174,13 @@ def _deciding(test: str, result: AgainstChance, ranks: Wilcoxon) -> tuple[str, f
     if result.test.p is not None:
         return _name(result), result.test.p, None
     return "exact sign flip", result.exact.p, result.test.reason
+
+
+def _alike(test: str, result: AgainstChance, target: Target) -> tuple[str, float | None, str | None]:
+    """The same under another definition, so that decisions differ by that alone."""
+    if test == "wilcoxon" and not isinstance(result.test, Binomial):
+        return _deciding(test, result, _wilcoxon(result, target))
+    return _name(result), result.p, None
 
 
 def judge(judging: Judging, family: Mapping[str, tuple[str, float | None, str | None]]) -> dict[str, Verdict]:

@@ -14,7 +14,6 @@ from analysis.preference import Preferred
 from analysis.statistics.binomial import Binomial
 from analysis.statistics.t_test import Alternative, TTest
 from analysis.target import Judging, Recognised, Verdict
-from study.protocol.plan import TEST_NAMES
 
 if TYPE_CHECKING:
     from study.protocol import Protocol
@@ -71,8 +70,7 @@ def _sentence(test: TTest, verdict: Verdict, judging: Judging) -> str:
 
 def _decided_by(verdict: Verdict, judging: Judging) -> str:
     """The test that decided, with its p."""
-    name = TEST_NAMES.get(verdict.test, verdict.test).removesuffix(" test")
-    decided = f"{name} p {apa.probability(verdict.p, judging.alpha)}, {judging.sides}"
+    decided = f"{verdict.by} p {apa.probability(verdict.p, judging.alpha)}, {judging.sides}"
     if judging.correction != "none" and verdict.p_adjusted is not None:
         decided += f", {judging.adjustment} p {apa.probability(verdict.p_adjusted, judging.alpha)}"
     return decided

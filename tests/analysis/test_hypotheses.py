@@ -20,7 +20,7 @@ from analysis.plan import Findings, Levels, Targets, carry_out
 from analysis.report import analyse
 from analysis.statistics.t_test import Alternative
 from analysis.target import Judging, recognition
-from analysis.words import sentences, summary, warnings
+from analysis.words import assumptions, sentences, summary, warnings
 from study.protocol import Protocol, load_protocol
 from study.protocol.errors import ProtocolError
 from tests.analysis.conftest import PAPER, Write, choices, ratings
@@ -54,7 +54,11 @@ def test_hypotheses_on_one_part_keep_their_results_tables_and_figures_apart(
     assert names <= set(written) and names == set(written["further"]) & names
     assert {one["results"] for one in written["hypotheses"].values()} == names
     assert written["recognition_H1"]["joy"]["chance"]["definition"] == "midpoint"
-    assert written["recognition_H3"]["joy"]["chance"]["definition"] == "other items"
+    ranked = written["recognition_H3"]["joy"]
+    assert ranked["chance"]["definition"] == "other items"
+    assert (ranked["t_test"]["p_adjusted"], ranked["verdict"]["test"]) == (None, "wilcoxon")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert page.count(" (Wilcoxon&#39;s signed-rank)</td>") == 6
     assert "H2.2" in written["intensity_H2.1"]["arc"]["mirrors"]
     assert "mirrors" not in written["intensity_H5"]["arc"]
 
@@ -70,6 +74,20 @@ def test_a_sentence_reports_the_test_that_was_declared(tmp_path: Path, write: Wr
     assert "; score 1.98 against chance = 0.00 (other items), " in ranks
     assert ranks.endswith("; Wilcoxon's signed-rank p = .002, one-sided")
     assert "; McNemar's exact p" in sentences(outcomes["H5"])["ant"]
+    assert assumptions(outcomes["H3"]) == ""
+
+
+def test_under_other_definitions_of_chance_the_declared_test_decides_too(
+    tmp_path: Path, write: Write
+) -> None:
+    protocol = with_hypotheses(tmp_path, MORE)
+    findings = carry_out(read_responses(write([*ratings(n=9), *choices(n=9)]), protocol), protocol)
+    outcome = findings.outcomes["H3"]
+    assert isinstance(outcome, Targets)
+    for one in outcome.results.values():
+        decided = {name: verdict.test for name, verdict in one.sensitivity_verdicts.items()}
+        assert {name for name, test in decided.items() if test != "wilcoxon"} == {"best item"}
+        assert one.sensitivity_verdicts["other items"] == one.verdict
 
 
 HITS = """
