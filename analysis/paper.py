@@ -14,7 +14,7 @@ from analysis.statcheck import Checked, Reading, check_text, read_text, tables_i
 from stimuli.errors import InputError
 
 PIPES = re.compile(r"^[ \t]*\S.*\|.*\n[ \t:|-]*-[ \t:-]*\|[ \t:|-]*\n(?:.*\|.*(?:\n|\Z))*", re.MULTILINE)
-TABULAR = re.compile(r"\\begin\{(tabular\*?|longtable)\}(.*?)\\end\{\1\}", re.DOTALL)
+TABULAR = re.compile(r"\\begin\{(tabular[*xy]?|longtable)\}(.*?)\\end\{\1\}", re.DOTALL)
 COLUMNS = re.compile(r"\A(?:\[[^\]]*\]|\{(?:[^{}]|\{[^{}]*\})*\}|\s)*")  # how they are set, before the cells
 RULES = re.compile(
     r"\\(?:(?:top|mid|bottom)rule|hline|[cx]?(?:mid)?(?:rule|line)(?:\([^)]*\))?\{[^}]*\})|(?<!\\)%.*"

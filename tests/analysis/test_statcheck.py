@@ -197,7 +197,10 @@ IN_LATEX = r"""\begin{tabular}{l@{}c|c} \toprule
 """
 
 
-@pytest.mark.parametrize("text", [MARKDOWN, IN_LATEX])
+IN_TABULARX = IN_LATEX.replace("{tabular}{l@", r"{tabularx}{\linewidth}{X@").replace("{tabular}", "{tabularx}")
+
+
+@pytest.mark.parametrize("text", [MARKDOWN, IN_LATEX, IN_TABULARX])
 def test_tables_of_a_text_are_checked(text: str, tmp_path: Path) -> None:
     paper = tmp_path / "paper.md"
     paper.write_text(text, encoding="utf-8")
