@@ -197,7 +197,10 @@ IN_LATEX = r"""\begin{tabular}{l@{}c|c} \toprule
 """
 
 
-IN_TABULARX = IN_LATEX.replace("{tabular}{l@", r"{tabularx}{\linewidth}{X@").replace("{tabular}", "{tabularx}")
+WIDE = r"{tabularx}{\linewidth}{X@"
+IN_TABULARX = IN_LATEX.replace("{tabular}{l@", WIDE).replace("{tabular}", "{tabularx}")
+    "{tabular}", "{tabularx}"
+)
 
 
 @pytest.mark.parametrize("text", [MARKDOWN, IN_LATEX, IN_TABULARX])
