@@ -199,8 +199,6 @@ IN_LATEX = r"""\begin{tabular}{l@{}c|c} \toprule
 
 WIDE = r"{tabularx}{\linewidth}{X@"
 IN_TABULARX = IN_LATEX.replace("{tabular}{l@", WIDE).replace("{tabular}", "{tabularx}")
-    "{tabular}", "{tabularx}"
-)
 
 
 @pytest.mark.parametrize("text", [MARKDOWN, IN_LATEX, IN_TABULARX])
