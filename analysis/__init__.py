@@ -34,6 +34,7 @@ from analysis.statistics.gee_logistic import gee_logistic
 from analysis.statistics.icc import icc
 from analysis.statistics.krippendorff import krippendorff_alpha
 from analysis.statistics.label_permutation import label_permutation
+from analysis.statistics.linear_mixed import linear_mixed
 from analysis.statistics.logistic_mixed import logistic_mixed
 from analysis.statistics.mcnemar import mcnemar
 from analysis.statistics.newcombe import newcombe
@@ -49,6 +50,7 @@ from analysis.statistics.wilson import wilson
 __all__ = [
     "adjust", "binomial", "bootstrap_mean", "carry_over", "clopper_pearson", "cronbach_alpha",
     "cumulative_link_mixed", "equivalence", "fisher", "friedman", "gee_logistic", "icc", "jzs_bayes_factor",
-    "krippendorff_alpha", "label_permutation", "logistic_mixed", "mcnemar", "newcombe", "one_sample_t",
-    "paired_t", "position_effect", "sign_flip", "student_t", "t_sentence", "welch_t", "wilcoxon", "wilson",
+    "krippendorff_alpha", "label_permutation", "linear_mixed", "logistic_mixed", "mcnemar", "newcombe",
+    "one_sample_t", "paired_t", "position_effect", "sign_flip", "student_t", "t_sentence", "welch_t",
+    "wilcoxon", "wilson",
 ]  # fmt: skip

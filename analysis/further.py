@@ -22,6 +22,7 @@ from analysis.statistics.gee_logistic import GeeLogistic, gee_logistic
 from analysis.statistics.icc import Icc, icc
 from analysis.statistics.krippendorff import krippendorff_alpha
 from analysis.statistics.label_permutation import LabelPermutation, label_permutation
+from analysis.statistics.linear_mixed import LinearMixed, linear_mixed
 from analysis.statistics.logistic_mixed import LogisticMixed, logistic_mixed
 from analysis.statistics.recognition_rate import UnbiasedHitRate, confusion, unbiased_hit_rates
 from analysis.statistics.t_test import Interval
@@ -72,6 +73,9 @@ class Further:
     targets: Mapping[str, Mapping[str, OfTarget]]
     levels: Mapping[str, Mapping[str, OfLevels]]
     confusions: Mapping[str, Mapping[str, NDArray[np.float64]]]  # by rule for ties: counts (stimuli, items)
+    crossed: Mapping[
+        str, LinearMixed | None
+    ]  # how far targets are rated above the other items of their clips
     agreement: Mapping[str, Agreement]
     order: Mapping[str, Order]
     scales: Mapping[str, CronbachAlpha]  # by "part: series"
@@ -100,6 +104,7 @@ def look_further(findings: Findings, responses: Responses, protocol: Protocol) -
             name: {ties: confusion(one.answers.ratings, ties) for ties in ("share", "miss")}
             for name, one in targets.items()
         },
+        crossed={name: _crossed(one) for name, one in targets.items()},
         agreement={name: _agreement(one.answers) for name, one in targets.items()},
         order={name: order for name, order in orders.items() if order is not None},
         scales=dict(_scales(findings.responses)),
@@ -138,6 +143,20 @@ def _of_target(
         equivalence=equivalence(on_target, (null - close, null + close)) if scores_are_ratings else None,
         hits=hits,
     )
+
+
+def _crossed(outcome: Targets) -> LinearMixed | None:
+    """Each clip's target above the mean of its other items, participants and clips drawn from many."""
+    answers, results = outcome.answers, outcome.results
+    if len(answers.participants) > MOST:
+        return None
+    stimuli = [answers.stimuli.index(stimulus) for stimulus in results]
+    items = [answers.items.index(one.item) for one in results.values()]
+    ratings = answers.ratings[:, stimuli]  # (participants, clips, items)
+    target = ratings[:, np.arange(len(stimuli)), items]
+    above = target - (ratings.sum(axis=2) - target) / (ratings.shape[2] - 1)
+    person, clip = np.indices(above.shape)
+    return linear_mixed(above.ravel(), person.ravel(), clip.ravel())
 
 
 def _of_levels(outcome: Levels, principle: str) -> OfLevels:

@@ -39,6 +39,9 @@ GLOSSARY = {
     "BCa": "Bootstrap interval of the mean, bias-corrected, 9,999 resamples, fixed seed.",
     "CLMM": "Cumulative-link mixed model: log odds that the intended item is rated higher than the others, "
     "with an effect of the participant. R: ordinal::clmm",
+    "LMM": "Linear mixed model of the intended item's rating less the mean of the clip's other items, "
+    "participants and clips both drawn from many; degrees of freedom by Satterthwaite. "
+    "R: lmerTest::lmer(score ~ 1 + (1 | participant) + (1 | clip))",
     "Friedman": "Friedman's rank test that the items of a clip are rated differently. R: friedman.test",
     "Kendall W": "Kendall's W, the agreement of participants' ranks: 0 none, 1 complete.",
     "label permutation": "Exact test: how often so high a sum of ratings falls on the intended item when "

@@ -118,9 +118,12 @@ class Results:
         for name in (*further.targets, *further.levels):
             part: Json = content.setdefault(outcomes[name].name, {})
             part["tests"] = further.targets.get(name) or further.levels[name]
-            for key, found in (("agreement", further.agreement), ("order", further.order)):
-                if name in found:
-                    part[key] = found[name]
+            beside: tuple[tuple[str, Mapping[str, Any]], ...] = (
+                ("crossed", further.crossed),
+                ("agreement", further.agreement),
+                ("order", further.order),
+            )
+            part |= {key: found[name] for key, found in beside if name in found}
             if name in further.confusions:
                 stimuli, items = outcomes[name].answers.stimuli, outcomes[name].answers.items
                 part["highest_rated"] = {

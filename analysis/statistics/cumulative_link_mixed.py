@@ -44,7 +44,7 @@ def cumulative_link_mixed(ratings: ArrayLike, x: ArrayLike, participants: ArrayL
     >>> round(cumulative_link_mixed(ratings, target, people).effect, 1)
     2.0
     """
-    answers, covariate, group = observed_rows(ratings, x, participants)
+    answers, covariate, (group,) = observed_rows(ratings, x, participants)
     values, y = np.unique(answers, return_inverse=True)
     levels, count = values.size, np.unique(group).size
     if levels < 2 or np.ptp(covariate) == 0:

@@ -45,7 +45,7 @@ def gee_logistic(
     >>> round(result.effect, 3), round(result.se, 3)
     (2.197, 1.778)
     """
-    y, covariate, group = observed_rows(chosen, x, participants)
+    y, covariate, (group,) = observed_rows(chosen, x, participants)
     refuse_other_than_yes_and_no(y)
     n, count = y.size, int(group.max()) + 1 if group.size else 0
     for level in np.unique(covariate):

@@ -47,7 +47,7 @@ def logistic_mixed(chosen: ArrayLike, x: ArrayLike, participants: ArrayLike) -> 
     >>> round(result.effect, 2), round(result.se, 2)
     (1.39, 1.22)
     """
-    y, covariate, group = observed_rows(chosen, x, participants)
+    y, covariate, (group,) = observed_rows(chosen, x, participants)
     refuse_other_than_yes_and_no(y)
     count = int(group.max()) + 1 if group.size else 0
 

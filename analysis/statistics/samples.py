@@ -53,19 +53,25 @@ def observed_pairs(first: ArrayLike, second: ArrayLike) -> tuple[FloatArray, Flo
 
 
 def observed_rows(
-    values: ArrayLike, x: ArrayLike, participants: ArrayLike
-) -> tuple[FloatArray, FloatArray, NDArray[np.intp]]:
-    """Answers, their conditions and their participants, numbered from 0; without rows that miss any."""
+    values: ArrayLike, x: ArrayLike, *groups: ArrayLike
+) -> tuple[FloatArray, FloatArray, list[NDArray[np.intp]]]:
+    """Answers, their conditions and their groups (the first: participants), each numbered from 0.
+
+    Rows that miss any are left out.
+    """
     answers, conditions = numbers(values).ravel(), numbers(x).ravel()
-    if not answers.size == conditions.size == np.size(participants):
+    if {answers.size, conditions.size, *(np.size(group) for group in groups)} != {answers.size}:
+        counted = zip(("participants", "stimuli"), groups, strict=False)
+        sizes = ", ".join(f"{np.size(group)} {name}" for name, group in counted)
         raise ValueError(
-            "columns need equal lengths, got "
-            f"{answers.size} answers, {conditions.size} conditions, {np.size(participants)} participants"
+            f"columns need equal lengths, got {answers.size} answers, {conditions.size} conditions, {sizes}"
         )
-    names = np.asarray(participants).ravel()
-    there = ~(np.isnan(answers) | np.isnan(conditions) | missing(names))
-    _, people = np.unique(names[there], return_inverse=True)
-    return _finite(answers[there]), conditions[there], people
+    names = [np.asarray(group).ravel() for group in groups]
+    lost = np.isnan(answers) | np.isnan(conditions)
+    for group in names:
+        lost = lost | missing(group)
+    numbered = [np.unique(group[~lost], return_inverse=True)[1] for group in names]
+    return _finite(answers[~lost]), conditions[~lost], numbered
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 suppressMessages({
   library(coin); library(exactRankTests); library(effectsize); library(psych); library(boot)
-  library(geepack); library(lme4); library(ordinal); library(BayesFactor)
+  library(geepack); library(lmerTest); library(ordinal); library(BayesFactor)
 })
 items <- c("joy", "fear", "anger", "shame")
 

@@ -33,6 +33,7 @@ from analysis.statistics.gee_logistic import gee_logistic
 from analysis.statistics.icc import icc
 from analysis.statistics.krippendorff import krippendorff_alpha
 from analysis.statistics.label_permutation import label_permutation
+from analysis.statistics.linear_mixed import LinearMixed, linear_mixed
 from analysis.statistics.logistic_mixed import logistic_mixed
 from analysis.statistics.mcnemar import McNemar, mcnemar
 from analysis.statistics.newcombe import newcombe
@@ -82,6 +83,12 @@ class Table:
         there = ~np.isnan(values)
         person, column = np.nonzero(there)
         return values[there], (column == 0).astype(float), person.astype(float)
+
+    def crossed(self) -> tuple[Column, Column, Column, Column]:
+        """Every rating with its participant, its item and its place."""
+        there = ~np.isnan(self.ratings())
+        person, item = np.nonzero(there)
+        return self.ratings()[there], person.astype(float), item.astype(float), self.places()[there]
 
     def yes(self, column: str) -> tuple[int, int]:
         """How many answered 1, and how many answered."""
@@ -281,7 +288,28 @@ REFERENCES = [
               "c(coef(c), sqrt(diag(vcov(c)))[['x']], c$ST$p[1], logLik(c))",
               lambda d: [*(c := cumulative_link_mixed(*d.long(*ITEMS))).thresholds, c.effect, c.se,
                          c.participant_sd, c.log_likelihood], ITERATED),
+    Reference("m <- lmer(y ~ 1 + (1 | p) + (1 | s), shown(d)); s <- as.data.frame(VarCorr(m)); "
+              "c(coef(summary(m))[1, ], s$sdcor[match(c('p', 's', 'Residual'), s$grp)], logLik(m))",
+              lambda d: _mixed(linear_mixed(*d.crossed()[:3])), ITERATED),
+    Reference("m <- lmer(y ~ place + (1 | p) + (1 | s), shown(d)); s <- as.data.frame(VarCorr(m)); "
+              "c(coef(summary(m))[2, ], s$sdcor[match(c('p', 's', 'Residual'), s$grp)], logLik(m))",
+              lambda d: _mixed(linear_mixed(*d.crossed())), ITERATED),
 ]  # fmt: skip
+
+
+def _mixed(m: LinearMixed) -> Numbers:
+    """As R's summary has them."""
+    return [
+        m.estimate,
+        m.se,
+        m.df,
+        m.t,
+        m.p,
+        m.participant_sd,
+        m.stimulus_sd,
+        m.residual_sd,
+        m.log_likelihood,
+    ]
 
 
 def _adjusted(d: Table, correction: Correction) -> Numbers:

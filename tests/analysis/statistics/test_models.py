@@ -18,6 +18,7 @@ from analysis.statistics.cumulative_link_mixed import cumulative_link_mixed
 from analysis.statistics.equivalence import equivalence
 from analysis.statistics.gee_logistic import gee_logistic
 from analysis.statistics.label_permutation import label_permutation
+from analysis.statistics.linear_mixed import linear_mixed
 from analysis.statistics.logistic_mixed import logistic_mixed
 from analysis.statistics.noncentral_t import log_density
 from analysis.statistics.one_sample_t import one_sample_t
@@ -107,6 +108,34 @@ def test_the_logistic_mixed_model_agrees_with_r(
     assert fit.participant_sd == pytest.approx(1.222038166702902, abs=1e-4)
     fit = logistic_mixed(holes["rating"] >= 4, holes["condition"], holes["participant"])
     assert (fit.effect, fit.se) == pytest.approx((0.3952121819814631, 0.3236410612738055), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("values", "participants", "stimuli", "reason"),
+    [
+        ([1, 2, 3], ["a", "a", "a"], [1, 2, 3], "one participant only"),
+        ([1, 2, 3], ["a", "b", "c"], [1, 1, 1], "one stimulus only"),
+        ([1, 2, 3], ["a", "b", "c"], [1, 1, 2], "one answer per participant or stimulus"),
+        ([3, 3, 3, 3], ["a", "a", "b", "b"], [1, 2, 1, 2], "zero variance"),
+        ([1, 2, 2, 3], ["a", "a", "b", "b"], [1, 2, 1, 2], "participants and stimuli explain every answer"),
+    ],
+)
+def test_a_linear_mixed_model_that_cannot_be_says_why(
+    values: list[float], participants: list[str], stimuli: list[int], reason: str
+) -> None:
+    fit = linear_mixed(values, participants, stimuli)
+    assert fit.estimate is None and fit.reason == f"undefined: {reason}"
+
+
+def test_a_linear_mixed_model_of_nobodys_own_ways_is_a_t_test() -> None:
+    rng = np.random.default_rng(4)
+    values = rng.normal(3, 1, (20, 5))
+    alike = values - values.mean(axis=0) - values.mean(axis=1, keepdims=True) + 2 * values.mean()
+    people, clips = np.indices(values.shape)
+    fit = linear_mixed(alike.ravel(), people.ravel(), clips.ravel())
+    t = one_sample_t(alike.ravel(), 0)
+    assert (fit.participant_sd, fit.stimulus_sd) == (0, 0)
+    assert (fit.t, fit.df, fit.p) == pytest.approx((t.t, t.df, t.p), rel=1e-4)
 
 
 @pytest.mark.parametrize(

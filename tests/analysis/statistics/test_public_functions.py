@@ -51,6 +51,11 @@ class Drawn:
         n = 2 * self.n
         return self.rng.choice([*options, nan], n), self.rng.choice([0.0, 1.0], n), self.rng.integers(0, 4, n)
 
+    def crossed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Value, participant, stimulus and a covariate."""
+        answers, x, people = self.rows(1, 2, 3)
+        return answers, people, self.rng.integers(0, 3, people.size), x
+
     def family(self) -> dict[str, float | None]:
         return {str(k): None if self.rng.random() < 0.3 else float(self.rng.random()) for k in range(self.n)}
 
@@ -76,6 +81,10 @@ CALLS: Mapping[str, Callable[[Drawn], object]] = {
     ],
     "krippendorff_alpha": lambda d: analysis.krippendorff_alpha(d.table),
     "label_permutation": lambda d: analysis.label_permutation(d.table, 0),
+    "linear_mixed": lambda d: [
+        analysis.linear_mixed(*d.crossed()[:3]),
+        analysis.linear_mixed(*d.crossed()),
+    ],
     "logistic_mixed": lambda d: analysis.logistic_mixed(*d.rows(0, 1)),
     "mcnemar": lambda d: analysis.mcnemar(d.choices(), d.choices()),
     "newcombe": lambda d: analysis.newcombe(*d.count(), *d.count()),
