@@ -47,11 +47,11 @@ def linear_mixed(
     Westfall & Kenny 2012). Agrees with R `lmerTest::lmer(value ~ x + (1 | participant) + (1 | stimulus))`,
     Satterthwaite's degrees of freedom too (Kuznetsova, Brockhoff & Christensen 2017).
 
-    >>> ratings = [4, 2, 5, 3, 3, 3, 4, 4, 2, 3, 5, 1]
-    >>> clips = ["wave", "nod"] * 6
-    >>> people = [person for person in "abcdef" for _ in range(2)]
-    >>> round(linear_mixed(ratings, people, clips).estimate, 2)
-    3.25
+    >>> ratings = [4, 2, 5, 5, 3, 4, 4, 2, 5, 3, 2, 4]
+    >>> clips = ["wave", "nod", "bow"] * 4
+    >>> people = [person for person in "abcd" for _ in range(3)]
+    >>> round(linear_mixed(ratings, people, clips).df, 1)
+    2.1
     """
     covariate = np.zeros(np.shape(np.asarray(values))) if x is None else x
     y, fixed, (person, stimulus) = observed_rows(values, covariate, participants, stimuli)
