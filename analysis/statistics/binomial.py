@@ -10,7 +10,7 @@ from scipy.special import betainc, gammaln, xlog1py, xlogy
 
 from analysis.statistics.asked import refuse_impossible_count
 from analysis.statistics.clopper_pearson import clopper_pearson
-from analysis.statistics.t_test import Alternative, Interval, refuse_other_sides
+from analysis.statistics.t_test import SMALLEST, Alternative, Interval, refuse_other_sides
 from analysis.statistics.wilson import wilson
 
 
@@ -62,12 +62,12 @@ def binomial_probability(k: int, n: int, null: float, alternative: Alternative) 
     if alternative == "less":
         return at_least(n - k, n, 1 - null)
     chances = outcome_probabilities(np.arange(n + 1), n, null)
-    return float(min(1.0, chances[chances <= chances[k] * (1 + 1e-7)].sum()))
+    return float(min(1.0, max(SMALLEST, chances[chances <= chances[k] * (1 + 1e-7)].sum())))
 
 
 def at_least(k: int, n: int, share: float) -> float:
     """P(X ≥ k) for X binomial, through the incomplete beta function, so the tail keeps its digits."""
-    return 1.0 if k <= 0 else float(betainc(k, n - k + 1, share))
+    return 1.0 if k <= 0 else max(float(betainc(k, n - k + 1, share)), SMALLEST)
 
 
 def outcome_probabilities(k: ArrayLike, n: int, share: float) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import gammaln
 
 from analysis.statistics.asked import refuse_impossible_count
-from analysis.statistics.t_test import Alternative, refuse_other_sides
+from analysis.statistics.t_test import SMALLEST, Alternative, refuse_other_sides
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def fisher(k1: int, n1: int, k2: int, n2: int, alternative: Alternative = "two-s
     against = (n1 - k1) * k2
     return Fisher(
         n=(n1, n2),
-        p=min(1.0, float(p)),
+        p=min(1.0, max(float(p), SMALLEST)),
         alternative=alternative,
         odds_ratio=k1 * (n2 - k2) / against if against else None,
         reason=None if against else "odds ratio unbounded or undefined: an empty cell",

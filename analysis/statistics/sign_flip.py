@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from analysis.statistics.binomial import binomial_probability
 from analysis.statistics.samples import observed
-from analysis.statistics.t_test import Alternative, refuse_other_sides
+from analysis.statistics.t_test import SMALLEST, Alternative, refuse_other_sides
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,6 @@ def sign_flip(values: ArrayLike, null: float = 0.0, alternative: Alternative = "
 
 
 EXACT_UP_TO = 500  # the distribution takes n² steps of the grid
-SMALLEST = 5e-324  # a probability below the smallest positive number is not 0
 
 
 def flip_probability(

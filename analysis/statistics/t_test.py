@@ -13,6 +13,7 @@ from stimuli.errors import nearest
 
 Alternative = Literal["greater", "less", "two-sided"]
 Interval = tuple[float, float]
+SMALLEST = 5e-324  # a probability below the smallest positive number is not 0
 
 
 @dataclass(frozen=True)
@@ -87,10 +88,10 @@ def t_probability(t: float, df: float, alternative: Alternative) -> float:
     """P-value of t on df degrees of freedom; the tail is computed directly, so it keeps its digits near 0."""
     refuse_other_sides(alternative)
     if alternative == "greater":
-        return float(stdtr(df, -t))
+        return max(float(stdtr(df, -t)), SMALLEST)
     if alternative == "less":
-        return float(stdtr(df, t))
-    return float(2 * stdtr(df, -abs(t)))
+        return max(float(stdtr(df, t)), SMALLEST)
+    return max(float(2 * stdtr(df, -abs(t))), SMALLEST)
 
 
 def refuse_other_sides(alternative: str) -> None:
