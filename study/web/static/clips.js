@@ -5,24 +5,30 @@ const FIRST_WAIT_MS = 500;
 
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
+/** What came is not what was rendered: it must not be judged. */
+export class Altered extends Error {}
+
 /**
- * Load a clip whole. Resolves to {url, streamed}; after several failures to its address, to be streamed.
- * `progress` hears the share that has come, `failed` why a try failed.
+ * Load a clip whole. Resolves to {url, streamed}; after several failures to its address, to be streamed, or
+ * rejects with Altered. `progress` hears the share that has come, `failed` why a try failed.
  */
 export async function loadClip(clip, { progress, failed }) {
+  let last;
   for (let attempt = 0; attempt < TRIES; attempt += 1) {
     try {
       const response = await fetch(clip.url, { cache: attempt ? "reload" : "default" }); // a kept copy may be the fault
       if (!response.ok) throw new Error(`HTTP ${response.status}`);
       const blob = await readAll(response, (bytes) => progress(bytes / clip.size));
       if (blob.size !== clip.size) throw new Error(`${blob.size} of ${clip.size} bytes`);
-      if (!clip.url.includes(await nameOf(blob))) throw new Error("other bytes than were sent");
+      if (!clip.url.includes(await nameOf(blob))) throw new Altered("other bytes than were sent");
       return { url: URL.createObjectURL(blob), streamed: false };
     } catch (error) {
+      last = error;
       failed(`${clip.role}: ${error.message}`);
       await pause(FIRST_WAIT_MS * 2 ** attempt);
     }
   }
+  if (last instanceof Altered) throw last;
   return { url: clip.url, streamed: true };
 }
 

@@ -1,7 +1,7 @@
 // One page of the session: clips first, then answers, then the outbox; afterwards the server says what comes next.
 
 import { Answers } from "./answers.js";
-import { fetchAhead, loadClip } from "./clips.js";
+import { Altered, fetchAhead, loadClip } from "./clips.js";
 import { Outbox } from "./outbox.js";
 import { Player } from "./player.js";
 import { enliven } from "./questions.js";
@@ -55,7 +55,12 @@ async function preparePlayers() {
 
 async function fill(player) {
   const failed = (why) => report("video_retried", `${page.step} ${why}`);
-  player.load(await loadClip(player.clip, { progress: (share) => player.progress(share), failed }));
+  try {
+    player.load(await loadClip(player.clip, { progress: (share) => player.progress(share), failed }));
+  } catch (error) {
+    if (!(error instanceof Altered)) throw error;
+    player.fail(error.message);
+  }
 }
 
 function unlock() {

@@ -104,7 +104,7 @@ export class Player {
       if (video.playbackRate !== 1) video.playbackRate = 1;
     });
     on("ended", () => this.#ended());
-    on("error", () => this.#failed());
+    on("error", () => this.fail(this.#video.error?.message || "unknown error"));
     video.addEventListener("timeupdate", () => this.#look());
     video.addEventListener("contextmenu", (event) => event.preventDefault()); // browsers offer controls there
     document.addEventListener("visibilitychange", () => {
@@ -168,12 +168,13 @@ export class Player {
     this.#button.textContent = this.#texts.continue;
   }
 
-  #failed() {
+  /** Say that it cannot be played, and offer another try. */
+  fail(why) {
     this.#playing = false;
     this.#setBroken(true);
     this.#button.hidden = this.#button.disabled = false;
     this.#button.textContent = this.#texts.retry;
-    this.onfailure(this, this.#video.error?.message || "unknown error");
+    this.onfailure(this, why);
   }
 
   #setBroken(broken) {
