@@ -191,6 +191,11 @@ class Store(Archive):
         row = {"participant": participant, "at": now, "name": name, "detail": detail}
         return self._writer.soon(lambda transaction: transaction.add(HAPPEN, row))
 
+    @property
+    def is_preparing(self) -> bool:
+        """Whether answers are being made ready for the disk."""
+        return self._writer.is_preparing
+
     # Whether the study runs
 
     @property

@@ -72,6 +72,7 @@ class Writer:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._waiting: SimpleQueue[Task[Any] | None] = SimpleQueue()
+        self.is_preparing = False  # a transaction; not while one is on its way to the disk
         self._thread = threading.Thread(target=self._run, name="writer", daemon=True)
         self._thread.start()
 
@@ -107,9 +108,7 @@ class Writer:
     def _write(self, tasks: list[Task[Any]]) -> None:
         try:
             with self._engine.begin() as db:
-                transaction = Transaction(db)
-                results = [task.job(transaction) for task in tasks]
-                transaction.flush()
+                results = self._prepare(Transaction(db), tasks)
         except Exception as err:
             if len(tasks) == 1:
                 tasks[0].done.set_exception(err)
@@ -119,3 +118,13 @@ class Writer:
         else:
             for task, result in zip(tasks, results, strict=True):
                 task.fulfil(result)
+
+    def _prepare(self, transaction: Transaction, tasks: list[Task[Any]]) -> list[Any]:
+        """Do the jobs; what they give."""
+        self.is_preparing = True
+        try:
+            results = [task.job(transaction) for task in tasks]
+            transaction.flush()
+        finally:
+            self.is_preparing = False
+        return results

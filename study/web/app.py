@@ -40,7 +40,7 @@ def create_app(site: Site) -> FastAPI:
     )
     app.state.site = site
     app.state.limits = Limits()
-    app.state.turns = Turns()
+    app.state.turns = Turns(site.store)
     app.state.is_stopping = lambda: False  # the server knows better
     for router in (participant.router, entry.router, experimenter.router):  # looked for in this order
         app.router.routes.extend(router.routes)  # `include_router` would match every request twice

@@ -6,7 +6,6 @@ import errno
 import gc
 import signal
 import socket
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -39,7 +38,6 @@ EVERYWHERE = "0.0.0.0"
 ELSEWHERE = "192.0.2.1"  # of the addresses that are nobody's (RFC 5737)
 GRACE_S = 5  # for requests under way when the server is told to stop
 KEEP_ALIVE_S = 75  # people look at a page for longer than uvicorn's 5 s, and so do proxies at a connection
-SWITCH_S = 0.0005  # after which a busy thread makes way: the one that writes steps aside at every row
 COLLECT_AFTER = 20_000  # objects; a page makes hundreds, nearly none of them in cycles
 
 
@@ -156,7 +154,6 @@ def _server(app: FastAPI) -> uvicorn.Server:
     )
     gc.freeze()  # what is loaded by now stays: collections under load need not look through it again
     gc.set_threshold(COLLECT_AFTER)
-    sys.setswitchinterval(SWITCH_S)
     server = uvicorn.Server(config)
     app.state.is_stopping = lambda: server.should_exit
     return server
