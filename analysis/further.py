@@ -150,6 +150,8 @@ def _crossed(outcome: Targets) -> LinearMixed | None:
     answers, results = outcome.answers, outcome.results
     if len(answers.participants) > MOST:
         return None
+    if len(answers.items) == 1:
+        return LinearMixed(0, len(answers.participants), len(results), reason="undefined: one item only")
     stimuli = [answers.stimuli.index(stimulus) for stimulus in results]
     items = [answers.items.index(one.item) for one in results.values()]
     ratings = answers.ratings[:, stimuli]  # (participants, clips, items)

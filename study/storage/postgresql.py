@@ -7,7 +7,7 @@ vacuums, by itself or as its administrator orders.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, text
 from sqlalchemy.exc import OperationalError
@@ -91,5 +91,7 @@ class Lock:
     def _let_go(self) -> None:
         connection, self._connection = self._connection, None
         if connection is not None:
-            connection.invalidate()  # with the connection the lock is gone
+            with suppress(OperationalError):  # where the database is away, so is the lock
+                connection.execute(text("SELECT pg_advisory_unlock(:lock)"), {"lock": LOCK})
+            connection.invalidate()  # it bears our name
             connection.close()
