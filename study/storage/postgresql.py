@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, text
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import OperationalError, SQLAlchemyError
 
 from stimuli.errors import InputError
 from study.storage.database import Database, ServedByAnotherError, as_json, holder
@@ -64,6 +64,9 @@ class Lock:
             yield
         finally:
             self._wanted = False
+            if self._connection is not None:
+                with suppress(SQLAlchemyError):  # where the database is away, so is the lock
+                    self._connection.execute(text("SELECT pg_advisory_unlock(:lock)"), {"lock": LOCK})
             self._let_go()
 
     def keep(self) -> None:
@@ -91,7 +94,5 @@ class Lock:
     def _let_go(self) -> None:
         connection, self._connection = self._connection, None
         if connection is not None:
-            with suppress(OperationalError):  # where the database is away, so is the lock
-                connection.execute(text("SELECT pg_advisory_unlock(:lock)"), {"lock": LOCK})
-            connection.invalidate()  # it bears our name
+            connection.invalidate()  # with the connection the lock is gone
             connection.close()
