@@ -120,17 +120,9 @@ class Drawing:
         lay_out(figure)
         return figure
 
-    @cached_property
-    def svg(self) -> str:
-        """As SVG, without a date."""
-        return self._bytes("svg", {"Date": None, "Title": self.caption}).decode()
-
-    def write_svg(self, folder: Path) -> None:
-        """Write NAME.svg."""
-        (folder / f"{self.name}.svg").write_text(self.svg, encoding="utf-8")
-
-    def write_pdf_and_png(self, folder: Path) -> None:
-        """Write NAME.pdf and NAME.png."""
+    def write(self, folder: Path) -> None:
+        """Write NAME.svg, NAME.pdf and NAME.png, none with a date."""
+        (folder / f"{self.name}.svg").write_bytes(self._bytes("svg", {"Date": None, "Title": self.caption}))
         with _lean_fonts():
             (folder / f"{self.name}.pdf").write_bytes(self._bytes("pdf", {"CreationDate": None}))
         (folder / f"{self.name}.png").write_bytes(self._bytes("png", {"Software": None}))

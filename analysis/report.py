@@ -12,7 +12,7 @@ from platform import python_version
 from typing import TYPE_CHECKING
 
 from analysis.alongside import alongside
-from analysis.dataset import read_responses
+from analysis.dataset import Responses, read_responses
 from analysis.drawing import Drawing, styled
 from analysis.figures import draw_compared, draw_levels, draw_targets
 from analysis.further import look_further
@@ -82,34 +82,34 @@ def analyse(
         answered=responses.answered,
         analysed=analysed,
     )
-    results = Results(findings, provenance, look_further(findings, responses, protocol))
     with all_or_none(out) as folder:
-        _write(folder, results, protocol)
-    return results
+        return _write(folder, findings, provenance, responses, protocol)
 
 
-def _write(out: Path, results: Results, protocol: Protocol) -> None:
-    """Write every file of the report into an empty folder."""
+def _write(
+    out: Path, findings: Findings, provenance: Provenance, responses: Responses, protocol: Protocol
+) -> Results:
+    """Look further, and write every file of the report into an empty folder."""
     import matplotlib.backends.backend_pdf  # noqa: F401  once for both processes below
 
-    findings = results.findings
     drawings = draw(findings, labels_of(protocol))
     figures = out / "figures"
     for folder in (out / "tables", figures):
         folder.mkdir()
-    for drawing in drawings.values():
-        drawing.write_svg(figures)
 
-    def print_figures() -> None:
+    def write_figures() -> None:
         for drawing in drawings.values():
-            drawing.write_pdf_and_png(figures)
+            drawing.write(figures)
 
-    with alongside(print_figures):
+    with alongside(write_figures):
+        results = Results(findings, provenance, look_further(findings, responses, protocol))
         results.write(out / "results.json")
         for name, text in tables(findings).items():
             (out / "tables" / name).write_text(text, encoding="utf-8", newline="")
-        (out / "report.html").write_text(html(results, protocol, drawings), encoding="utf-8")
         write_pdf(out / "report.pdf", results, protocol, drawings)
+    pictures = {file.stem: file.read_text(encoding="utf-8") for file in figures.glob("*.svg")}
+    (out / "report.html").write_text(html(results, protocol, drawings, pictures), encoding="utf-8")
+    return results
 
 
 def tables(findings: Findings) -> dict[str, str]:

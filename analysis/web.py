@@ -33,8 +33,13 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parent / "templates"
 
 
-def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) -> str:
-    """The report: the main story first, further checks folded, every column with its definition on hover."""
+def html(
+    results: Results, protocol: Protocol, drawings: Mapping[str, Drawing], pictures: Mapping[str, str]
+) -> str:
+    """The report: the main story first, further checks folded, every column with its definition on hover.
+
+    `pictures` are the drawings as SVG, by name.
+    """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup
 
@@ -65,6 +70,7 @@ def html(results: Results, protocol: Protocol, drawings: Mapping[str, Drawing]) 
         glossary=GLOSSARY,
         threats=[*threats(protocol)],
         drawings=drawings,
+        pictures=pictures,
         texts={name: claim(protocol, name, outcome) for name, outcome in outcomes.items()},
         targets=[outcome for outcome in outcomes.values() if isinstance(outcome, Targets)],
         preferences=[outcome for outcome in outcomes.values() if isinstance(outcome, Preferences)],

@@ -57,7 +57,7 @@ def test_degenerate_responses_give_every_number_or_a_reason(case: str, paper: Pr
             assert (test["p"] is None) == ("reason" in test)
             assert test["p"] is None or 0 < test["p"] <= 1
     assert "nan" not in "".join(tables(findings).values())
-    assert html(results, paper, {}).count("<table>") >= 6
+    assert html(results, paper, {}, {}).count("<table>") >= 6
 
 
 @pytest.mark.parametrize("case", ["no answers", "everyone answers the same"])

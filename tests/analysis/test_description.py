@@ -121,7 +121,7 @@ def test_the_report_shows_them(kinds: tuple[Protocol, list[tuple[str, ...]], Pat
     responses = read_responses(path, protocol)
     findings = carry_out(responses, protocol)
     results = Results(findings, Provenance("s", "p", "r", {}), look_further(findings, responses, protocol))
-    page = html(results, protocol, {})
+    page = html(results, protocol, {}, {})
     assert "Other answers" in page and "how many gave each answer" in page
     assert len(results.as_json()["described"]) >= 4
     assert set(results.further.scales) == {f"impression: {s}" for s in ("warmth", "competence", "discomfort")}

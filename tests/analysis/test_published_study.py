@@ -136,7 +136,7 @@ def test_the_time_of_the_analysis_is_there_only_where_it_was_said(
     assert "when is not in the file" in report and "<dt>Analysed</dt>" not in report
     provenance = replace(results.provenance, analysed="2026-11-22T10:00")
     timed = replace(results, provenance=provenance)
-    assert "<dt>Analysed</dt><dd>2026-11-22T10:00</dd>" in html(timed, paper, {})
+    assert "<dt>Analysed</dt><dd>2026-11-22T10:00</dd>" in html(timed, paper, {}, {})
     assert (results.as_json()["analysed_at"], timed.as_json()["analysed_at"]) == (None, "2026-11-22T10:00")
 
 

@@ -100,7 +100,7 @@ def test_every_number_is_finite_or_null_beside_a_reason(
                 assert value is None or 0 < value <= 1, (place, name, value)
         if "p" in found and found["p"] is None:
             assert found.get("reason") or found.get("note"), (place, found)
-    said = "".join([*tables(findings).values(), html(results, protocol, {})])
+    said = "".join([*tables(findings).values(), html(results, protocol, {}, {})])
     said += "".join(line for outcome in findings.outcomes.values() for line in sentences(outcome).values())
     assert not {"nan", "inf", "None", "p = .000", "p = 0"} & set(
         said.replace(",", " ").replace("<", " ").split()
